@@ -1,0 +1,40 @@
+//! The command line: the only layer that touches files and the terminal.
+//!
+//! [`main`] reads like a table of contents: parse, one `match` over the
+//! commands, one place that turns failures into exit codes. Each command has a
+//! file with its arguments and a `run` function; typed arguments become domain
+//! values there, and nothing below sees a flag.
+
+mod exit;
+mod failure;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use exit::{EXIT_CODES_HELP, Exit};
+use failure::Failure;
+
+/// A referee for virtual micromouse contests of WebAssembly robots.
+#[derive(Parser)]
+#[command(name = "wasmouse", version, about, after_help = EXIT_CODES_HELP)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {}
+
+/// Runs the command line of this process and returns its exit code.
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let outcome: Result<Exit, Failure> = match cli.command {};
+    match outcome {
+        Ok(exit) => exit.into(),
+        Err(failure) => {
+            anstream::eprintln!("{failure}");
+            failure.exit().into()
+        }
+    }
+}

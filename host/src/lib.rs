@@ -1,0 +1,4 @@
+//! A referee for virtual micromouse contests of WebAssembly robots.
+
+pub mod cli;
+pub mod maze;
