@@ -2,3 +2,5 @@
 
 pub mod cli;
 pub mod maze;
+pub mod sim;
+pub mod sim;
