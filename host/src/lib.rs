@@ -3,4 +3,3 @@
 pub mod cli;
 pub mod maze;
 pub mod sim;
-pub mod sim;
