@@ -5,6 +5,11 @@
 
 mod cell;
 mod grid;
+mod solver;
 
 pub use cell::{Area, Cell, Heading, Turn};
 pub use grid::{DIMENSIONS, Maze, MazeError, Walls};
+pub use solver::{
+    Distances, Floor, LONGEST_MOVE, Metric, Path, distances_from, distances_to_goal,
+    omniscient_floor, shortest_path,
+};
