@@ -1,0 +1,286 @@
+//! The picture that competition text and simulator maps have in common.
+//!
+//! ```text
+//! o---o---o---o      rows of posts and horizontal walls, the top first
+//! |         G |      rows of cells and vertical walls
+//! o   o---o   o      a cell is four characters wide and two lines high,
+//! |       |   |      counting one of its posts and walls
+//! o---o   o   o
+//! | S |       |
+//! o---o---o---o
+//! ```
+
+use super::super::{Area, Cell, DIMENSIONS, Heading, Maze, Walls};
+use super::ParseError;
+use super::text::{Line, quoted, quoted_character};
+
+/// Characters from one post to the next.
+const CELL_WIDTH: usize = 4;
+
+/// Which of the two picture formats is read or printed.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Style {
+    /// Posts `o`, walls `---` and `|`, marks `S` and `G`.
+    Competition,
+    /// Any visible character is a wall, any character is a post.
+    Map,
+}
+
+impl Style {
+    fn is_post(self, found: char) -> bool {
+        match self {
+            Self::Competition => found == 'o',
+            Self::Map => found == ' ' || is_visible(found),
+        }
+    }
+
+    fn is_wall(self, found: char, drawn: char) -> bool {
+        match self {
+            Self::Competition => found == drawn,
+            Self::Map => is_visible(found),
+        }
+    }
+
+    fn post(self) -> char {
+        match self {
+            Self::Competition => 'o',
+            Self::Map => '+',
+        }
+    }
+}
+
+fn is_visible(character: char) -> bool {
+    !character.is_whitespace() && !character.is_control()
+}
+
+pub(super) fn parse(lines: &[Line<'_>], style: Style) -> Result<Maze, ParseError> {
+    let dimension = dimension(lines)?;
+    let mut picture = Picture {
+        style,
+        walls: Walls::closed(dimension),
+        start: None,
+        goal: Vec::new(),
+    };
+    for (index, line) in lines.iter().enumerate() {
+        let row = Row::new(line);
+        if index % 2 == 0 {
+            picture.posts(&row, index / 2)?;
+        } else {
+            picture.cells(&row, index / 2)?;
+        }
+        row.end(usize::from(dimension))?;
+    }
+    picture.finish()
+}
+
+/// The side of the maze, from the length of the first line and the number of lines.
+fn dimension(lines: &[Line<'_>]) -> Result<u8, ParseError> {
+    let first = Row::new(&lines[0]);
+    let columns = first.characters.len() / CELL_WIDTH;
+    if first.characters.len() % CELL_WIDTH != 1 {
+        let expected = "a whole number of cells, four characters each, and a post";
+        return Err(first.unexpected(first.characters.len(), expected));
+    }
+    let dimension = u8::try_from(columns)
+        .ok()
+        .filter(|columns| DIMENSIONS.contains(columns))
+        .ok_or(ParseError::Dimension { cells: columns })?;
+    let rows = lines.len() / 2;
+    if lines.len().is_multiple_of(2) {
+        return Err(ParseError::Ended {
+            line: lines.len() + 1,
+            expected: "a row of posts and walls".to_owned(),
+        });
+    }
+    if rows != columns {
+        return Err(ParseError::NotSquare { columns, rows });
+    }
+    Ok(dimension)
+}
+
+/// One line, with access by character.
+struct Row<'a> {
+    line: Line<'a>,
+    characters: Vec<char>,
+}
+
+impl<'a> Row<'a> {
+    fn new(line: &Line<'a>) -> Self {
+        Self {
+            line: *line,
+            characters: line.text().chars().collect(),
+        }
+    }
+
+    fn at(&self, index: usize) -> Option<char> {
+        self.characters.get(index).copied()
+    }
+
+    fn unexpected(&self, index: usize, expected: impl Into<String>) -> ParseError {
+        let found = quoted_character(self.at(index));
+        self.line.unexpected(index, expected, found)
+    }
+
+    /// Requires the line to end after that many cells and a post.
+    fn end(&self, columns: usize) -> Result<(), ParseError> {
+        let length = columns * CELL_WIDTH + 1;
+        if self.characters.len() <= length {
+            return Ok(());
+        }
+        let rest: String = self.characters[length..].iter().collect();
+        let expected = format!("the end of the line after {columns} cells");
+        Err(self.line.unexpected(length, expected, quoted(&rest)))
+    }
+}
+
+/// A maze while its picture is being read.
+struct Picture {
+    style: Style,
+    walls: Walls,
+    start: Option<Cell>,
+    goal: Vec<Cell>,
+}
+
+impl Picture {
+    /// Reads a row of posts and horizontal walls, the `above`-th from the top.
+    fn posts(&mut self, row: &Row<'_>, above: usize) -> Result<(), ParseError> {
+        let rows = usize::from(self.walls.dimension());
+        let perimeter = above == 0 || above == rows;
+        for x in 0..self.walls.dimension() {
+            let left = usize::from(x) * CELL_WIDTH;
+            self.post(row, left)?;
+            let wall = self.wall(row, left + 1, '-', perimeter)?;
+            for index in [left + 2, left + 3] {
+                if self.wall(row, index, '-', perimeter)? != wall {
+                    let expected = if wall { "`-`" } else { "a space" };
+                    return Err(row.unexpected(index, format!("{expected} as before it")));
+                }
+            }
+            if !perimeter {
+                let y = cell_row(self.walls.dimension(), above);
+                self.walls.set(Cell::new(x, y), Heading::Up, !wall);
+            }
+        }
+        self.post(row, rows * CELL_WIDTH)
+    }
+
+    /// Reads a row of cells and vertical walls, the `above`-th from the top.
+    fn cells(&mut self, row: &Row<'_>, above: usize) -> Result<(), ParseError> {
+        let dimension = self.walls.dimension();
+        let y = cell_row(dimension, above);
+        for x in 0..dimension {
+            let left = usize::from(x) * CELL_WIDTH;
+            let wall = self.wall(row, left, '|', x == 0)?;
+            if x > 0 {
+                self.walls.set(Cell::new(x, y), Heading::Left, !wall);
+            }
+            self.inside(row, left + 1, Cell::new(x, y))?;
+        }
+        self.wall(row, usize::from(dimension) * CELL_WIDTH, '|', true)?;
+        Ok(())
+    }
+
+    fn post(&self, row: &Row<'_>, index: usize) -> Result<(), ParseError> {
+        match row.at(index) {
+            Some(found) if self.style.is_post(found) => Ok(()),
+            _ if self.style == Style::Competition => Err(row.unexpected(index, "a post `o`")),
+            _ => Err(row.unexpected(index, "a post")),
+        }
+    }
+
+    /// Whether a wall, `drawn` in competition text, stands at that place.
+    fn wall(
+        &self,
+        row: &Row<'_>,
+        index: usize,
+        drawn: char,
+        perimeter: bool,
+    ) -> Result<bool, ParseError> {
+        match row.at(index) {
+            Some(found) if self.style.is_wall(found, drawn) => Ok(true),
+            Some(' ') if !perimeter => Ok(false),
+            _ if perimeter => {
+                let expected = format!("`{drawn}` (the perimeter is closed)");
+                Err(row.unexpected(index, expected))
+            }
+            _ => Err(row.unexpected(index, format!("`{drawn}` or a space"))),
+        }
+    }
+
+    /// Reads the three characters inside a cell.
+    fn inside(&mut self, row: &Row<'_>, index: usize, cell: Cell) -> Result<(), ParseError> {
+        for index in [index, index + 2] {
+            if row.at(index) != Some(' ') {
+                return Err(row.unexpected(index, "a space"));
+            }
+        }
+        match row.at(index + 1) {
+            Some(' ') => {}
+            Some('G') => self.goal.push(cell),
+            Some('S') => {
+                if let Some(first) = self.start {
+                    return Err(ParseError::SecondStart {
+                        line: row.line.number(),
+                        column: index + 2,
+                        first,
+                    });
+                }
+                self.start = Some(cell);
+            }
+            _ => return Err(row.unexpected(index + 1, "a space, `S` or `G`")),
+        }
+        Ok(())
+    }
+
+    fn finish(self) -> Result<Maze, ParseError> {
+        let start = self.start.unwrap_or(Cell::new(0, 0));
+        let goal = match Area::bounding(&self.goal) {
+            None => Area::center(self.walls.dimension()),
+            // Every cell is seen once, so equal numbers mean a filled rectangle.
+            Some(area) if area.cells().count() == self.goal.len() => area,
+            Some(_) => return Err(ParseError::GoalShape(self.goal)),
+        };
+        Ok(Maze::new(self.walls, start, goal)?)
+    }
+}
+
+/// The y of the cells below the `above`-th row of posts from the top.
+fn cell_row(dimension: u8, above: usize) -> u8 {
+    let above = u8::try_from(above).expect("a picture has at most 64 rows of cells");
+    dimension - 1 - above
+}
+
+pub(super) fn print(maze: &Maze, style: Style) -> String {
+    let dimension = maze.dimension();
+    let mut text = String::new();
+    for y in (0..dimension).rev() {
+        print_posts(maze, y, Heading::Up, style, &mut text);
+        for x in 0..dimension {
+            let cell = Cell::new(x, y);
+            let open = maze.walls().is_open(cell, Heading::Left);
+            text.push(if open { ' ' } else { '|' });
+            text.extend([' ', mark(maze, cell, style), ' ']);
+        }
+        text.push_str("|\n");
+    }
+    print_posts(maze, 0, Heading::Down, style, &mut text);
+    text
+}
+
+fn print_posts(maze: &Maze, y: u8, side: Heading, style: Style, text: &mut String) {
+    for x in 0..maze.dimension() {
+        let open = maze.walls().is_open(Cell::new(x, y), side);
+        text.push(style.post());
+        text.push_str(if open { "   " } else { "---" });
+    }
+    text.push(style.post());
+    text.push('\n');
+}
+
+fn mark(maze: &Maze, cell: Cell, style: Style) -> char {
+    match style {
+        Style::Competition if maze.start() == cell => 'S',
+        Style::Competition if maze.goal().contains(cell) => 'G',
+        Style::Competition | Style::Map => ' ',
+    }
+}

@@ -1,0 +1,132 @@
+//! Lines, words and what error messages quote of them.
+//!
+//! What the formats share before any of them looks at its own grammar.
+
+use super::{ParseError, TEXT_BYTES_MAX};
+
+/// How many characters of the file a message quotes.
+const QUOTED_MAX: usize = 24;
+
+/// One line of a maze file, without its line ending.
+#[derive(Clone, Copy)]
+pub(super) struct Line<'a> {
+    number: usize,
+    text: &'a str,
+}
+
+impl<'a> Line<'a> {
+    /// The text of the line.
+    pub(super) const fn text(&self) -> &'a str {
+        self.text
+    }
+
+    /// The number of the line, counted from 1.
+    pub(super) const fn number(&self) -> usize {
+        self.number
+    }
+
+    /// The error that `expected` does not stand in this line, where `found` does.
+    ///
+    /// `before` is the number of characters of the line before that place.
+    pub(super) fn unexpected(
+        &self,
+        before: usize,
+        expected: impl Into<String>,
+        found: String,
+    ) -> ParseError {
+        ParseError::Unexpected {
+            line: self.number,
+            column: before + 1,
+            expected: expected.into(),
+            found,
+        }
+    }
+}
+
+/// The lines of a file, at least one; blank lines at the end are left out.
+pub(super) fn lines(text: &str) -> Result<Vec<Line<'_>>, ParseError> {
+    if text.len() > TEXT_BYTES_MAX {
+        return Err(ParseError::TooLong { bytes: text.len() });
+    }
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut lines: Vec<Line<'_>> = text
+        .split('\n')
+        .zip(1..)
+        .map(|(text, number)| Line {
+            number,
+            text: text.strip_suffix('\r').unwrap_or(text),
+        })
+        .collect();
+    while lines.pop_if(|line| line.text.trim().is_empty()).is_some() {}
+    if lines.is_empty() {
+        return Err(ParseError::Empty);
+    }
+    Ok(lines)
+}
+
+/// A word of a line and the number of characters before it.
+pub(super) struct Word<'a> {
+    /// Characters of the line before the word.
+    pub(super) before: usize,
+    /// The word.
+    pub(super) text: &'a str,
+}
+
+/// The parts of a line between separators, without the blanks around them.
+pub(super) fn words<'a, const N: usize>(
+    line: &Line<'a>,
+    separators: [char; N],
+) -> impl Iterator<Item = Word<'a>> {
+    let mut before = 0;
+    line.text().split(separators).map(move |part| {
+        let text = part.trim_start_matches([' ', '\t']);
+        let blanks = part.len() - text.len();
+        let word = Word {
+            before: before + blanks,
+            text: text.trim_end_matches([' ', '\t']),
+        };
+        before += part.chars().count() + 1;
+        word
+    })
+}
+
+impl Word<'_> {
+    /// The number that the word is, when it is one and at most `max`.
+    pub(super) fn number(&self, max: u8) -> Option<u8> {
+        let digits = !self.text.is_empty() && self.text.bytes().all(|b| b.is_ascii_digit());
+        let number: u8 = digits.then(|| self.text.parse().ok())??;
+        (number <= max).then_some(number)
+    }
+
+    /// The word as messages quote it.
+    pub(super) fn quoted(&self) -> String {
+        quoted(self.text)
+    }
+}
+
+/// A piece of the file as messages quote it: shortened, with control and other
+/// invisible characters escaped, so that no file can play with a terminal.
+pub(super) fn quoted(text: &str) -> String {
+    if text.is_empty() {
+        return "nothing".to_owned();
+    }
+    let mut shown = String::from("`");
+    for character in text.chars().take(QUOTED_MAX) {
+        match character {
+            '"' | '\'' => shown.push(character),
+            _ => shown.extend(character.escape_debug()),
+        }
+    }
+    let rest = text.chars().nth(QUOTED_MAX).is_some();
+    shown.push_str(if rest { "...`" } else { "`" });
+    shown
+}
+
+/// A character of a picture as messages quote it; `None` is past the line's end.
+pub(super) fn quoted_character(character: Option<char>) -> String {
+    match character {
+        None => "the end of the line".to_owned(),
+        Some(' ') => "a space".to_owned(),
+        Some(character) => quoted(character.encode_utf8(&mut [0; 4])),
+    }
+}
