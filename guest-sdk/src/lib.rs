@@ -1,1 +1,29 @@
-//! sdk
+//! Write wasmouse robots in Rust.
+//!
+//! A robot is a type that implements [`Robot`]; [`export_robot!`] makes the
+//! component's exports of it. The rest is a toolkit to use or to leave:
+//!
+//! | to | use |
+//! |---|---|
+//! | say where the robot is | [`Cell`], [`Heading`], [`Pose`] |
+//! | tell the people who watch something | [`journal`] |
+//! | test a robot natively, without WebAssembly | [`testing`] |
+//!
+//! The smallest robot that does something is in the documentation of [`Robot`];
+//! `example-robots/` in the wasmouse repository has complete ones.
+
+#[doc(hidden)]
+pub mod bindings;
+mod geometry;
+pub mod journal;
+mod pose;
+mod robot;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod testing;
+
+pub use bindings::wasmouse::robot::types::{
+    Action, Area, Briefing, BudgetScope, Cell, Heading, Move, Sensors, Turn,
+};
+pub use geometry::DIMENSION_MAX;
+pub use pose::Pose;
+pub use robot::Robot;

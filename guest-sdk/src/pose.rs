@@ -1,0 +1,95 @@
+//! Where a robot is and which way it looks: [`Pose`].
+//!
+//! Dead reckoning only: it knows no walls beyond the sensors it is given.
+
+use crate::{Cell, Heading, Sensors, Turn};
+
+/// A cell and a heading.
+///
+/// ```
+/// use wasmouse_sdk::{Cell, Heading, Pose, Sensors, Turn};
+///
+/// let pose = Pose::at_start(Cell::new(0, 0));
+/// let sensors = Sensors { left: 0, front: 2, right: 5 };
+/// // A wall stands after two cells, so the third is not reached.
+/// let pose = pose.after(Turn::Straight, 3, sensors).expect("a forward move");
+/// assert_eq!(pose.cell, Cell::new(0, 2));
+/// assert_eq!(pose.heading, Heading::Up);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Pose {
+    /// The cell the robot stands in.
+    pub cell: Cell,
+    /// The way it looks.
+    pub heading: Heading,
+}
+
+impl Pose {
+    /// The pose in which both runs begin: in the start cell, heading up.
+    pub const fn at_start(start: Cell) -> Self {
+        Self {
+            cell: start,
+            heading: Heading::Up,
+        }
+    }
+
+    /// The pose after a turn and a drive of `advance` cells, given the sensors
+    /// read before it. A forward move ends at the first wall, which the sensors
+    /// have seen.
+    ///
+    /// `None` for a backward move: there is no rear sensor, so how far it gets is
+    /// a question for the map, see [`Pose::moved`].
+    pub fn after(self, turn: Turn, advance: i8, sensors: Sensors) -> Option<Self> {
+        let wish = u32::try_from(advance).ok()?;
+        let open = match turn {
+            Turn::Left => sensors.left,
+            Turn::Straight => sensors.front,
+            Turn::Right => sensors.right,
+        };
+        let heading = self.heading.turned(turn);
+        self.moved(turn, heading, wish.min(open))
+    }
+
+    /// The pose after a turn and then `cells` cells in direction `travel`, which
+    /// is the new heading or, for a backward move, the opposite of it. `None`
+    /// outside row and column 0.
+    pub fn moved(self, turn: Turn, travel: Heading, cells: u32) -> Option<Self> {
+        Some(Self {
+            cell: self.cell.toward(travel, cells)?,
+            heading: self.heading.turned(turn),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turn_comes_before_the_drive() {
+        let sensors = Sensors {
+            left: 0,
+            front: 0,
+            right: 4,
+        };
+        let pose = Pose::at_start(Cell::new(3, 3)).after(Turn::Right, 2, sensors);
+        let expected = Pose {
+            cell: Cell::new(5, 3),
+            heading: Heading::Right,
+        };
+        assert_eq!(pose, Some(expected));
+    }
+
+    #[test]
+    fn a_backward_move_needs_the_map() {
+        let sensors = Sensors {
+            left: 9,
+            front: 9,
+            right: 9,
+        };
+        let pose = Pose::at_start(Cell::new(3, 3));
+        assert_eq!(pose.after(Turn::Straight, -1, sensors), None);
+        let back = pose.moved(Turn::Straight, Heading::Down, 1);
+        assert_eq!(back, Some(Pose::at_start(Cell::new(3, 2))));
+    }
+}

@@ -1,0 +1,394 @@
+//! One match by the rules: two runs, a budget, a score.
+
+use std::fmt;
+
+use super::maze::Maze;
+use super::record::{Entry, Recorder};
+use crate::{Action, Area, Briefing, BudgetScope, Cell, Heading, Move, Robot, Sensors};
+
+/// How to play; the default is the ruleset `udacity` with seed 0 and setting 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlayOptions {
+    /// The seed of the briefing.
+    pub seed: u64,
+    /// The setting of the briefing.
+    pub setting: u32,
+    /// Steps the robot may take, at least 1. Default: 1000.
+    pub budget: u32,
+    /// Whether both runs share the budget. Default: they do.
+    pub budget_scope: BudgetScope,
+    /// The longest move, in cells. Default: 3.
+    pub longest_move: u32,
+    /// What run 1 is divided by in the score, at least 1. Default: 30.
+    pub exploration_divisor: u32,
+    /// Where both runs start. Default: (0, 0).
+    pub start: Cell,
+    /// The goal; `None` for the room in the centre, the default.
+    pub goal: Option<Area>,
+}
+
+impl Default for PlayOptions {
+    fn default() -> Self {
+        Self {
+            seed: 0,
+            setting: 0,
+            budget: 1000,
+            budget_scope: BudgetScope::BothRuns,
+            longest_move: 3,
+            exploration_divisor: 30,
+            start: Cell::new(0, 0),
+            goal: None,
+        }
+    }
+}
+
+/// A score in thousandths of a step; lower is better. Prints with three decimals.
+///
+/// ```
+/// use wasmouse_sdk::testing::Score;
+/// assert_eq!(Score::new(110, 17, 30).to_string(), "20.667");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Score {
+    thousandths: u64,
+}
+
+impl Score {
+    /// The score of these steps: those of the speed run plus those of the
+    /// exploration divided by `divisor` (at least 1), to the nearest thousandth; a
+    /// tie goes to the even one, as the tester's printing does.
+    pub const fn new(exploration_steps: u32, speed_steps: u32, divisor: u32) -> Self {
+        let (shared, divisor) = (exploration_steps as u64 * 1000, divisor as u64);
+        let (low, rest) = (shared / divisor, shared % divisor);
+        let below = rest * 2 < divisor || (rest * 2 == divisor && low.is_multiple_of(2));
+        Self {
+            thousandths: speed_steps as u64 * 1000 + low + if below { 0 } else { 1 },
+        }
+    }
+
+    /// Thousandths of a step.
+    pub const fn thousandths(self) -> u64 {
+        self.thousandths
+    }
+}
+
+impl fmt::Display for Score {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{}.{:03}",
+            self.thousandths / 1000,
+            self.thousandths % 1000
+        )
+    }
+}
+
+/// The state before one call, and the answer to it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stop {
+    /// 1 for the exploration, 2 for the speed run.
+    pub run: u8,
+    /// Where the robot stood.
+    pub cell: Cell,
+    /// The way it looked.
+    pub heading: Heading,
+    /// What it read.
+    pub sensors: Sensors,
+    /// What it answered.
+    pub action: Action,
+}
+
+/// How a match went.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Played {
+    /// Whether run 2 ended in the goal.
+    pub finished: bool,
+    /// Whether a step of run 1 ended in the goal.
+    pub goal_seen: bool,
+    /// Steps of run 1, with the reset.
+    pub exploration_steps: u32,
+    /// Steps of run 2.
+    pub speed_steps: u32,
+    /// The score; `None` unless finished.
+    pub score: Option<Score>,
+    /// Every call, in order.
+    pub stops: Vec<Stop>,
+    /// Moves that a wall stopped.
+    pub bumps: u32,
+    /// Moves longer than the longest.
+    pub clamps: u32,
+    /// Resets refused before the goal was reached.
+    pub resets_before_goal: u32,
+    /// Resets refused in run 2.
+    pub resets_in_run_2: u32,
+    /// Every journal call, in order.
+    pub journal: Vec<Entry>,
+}
+
+impl Played {
+    /// The result in a line, to pin in a test: `finished 110 + 17: 20.667`,
+    /// `goal seen 1000 + 0` or `goal not seen 1000 + 0`.
+    pub fn summary(&self) -> String {
+        let steps = format!("{} + {}", self.exploration_steps, self.speed_steps);
+        match self.score {
+            Some(score) => format!("finished {steps}: {score}"),
+            None if self.goal_seen => format!("goal seen {steps}"),
+            None => format!("goal not seen {steps}"),
+        }
+    }
+}
+
+/// Plays one match of the robot `R` in a maze of the Udacity text format.
+///
+/// # Panics
+///
+/// When `maze_text` is not such a maze, the start or the goal is outside it, or
+/// the robot panics.
+pub fn play<R: Robot>(maze_text: &str, options: &PlayOptions) -> Played {
+    let maze = Maze::parse(maze_text);
+    let briefing = briefing(maze.dimension, options);
+    let goal = briefing.goal;
+    assert!(maze.contains(briefing.start), "the start is outside");
+    assert!(
+        goal.cells().all(|it| maze.contains(it)),
+        "the goal is outside"
+    );
+
+    let recorder = Recorder::start();
+    let mut robot = R::start(&briefing);
+    let mut arena = Arena::new(&maze, briefing);
+    while arena.may_go_on() {
+        recorder.step(arena.played.stops.len() as u32 + 1);
+        let sensors = maze.sense(arena.cell, arena.heading);
+        let action = robot.next_move(sensors);
+        arena.step(sensors, action);
+    }
+    let mut played = arena.played;
+    played.journal = recorder.finish();
+    played
+}
+
+/// The briefing that [`play`] hands out for a maze of this dimension.
+pub fn briefing(dimension: u32, options: &PlayOptions) -> Briefing {
+    Briefing {
+        dimension,
+        start: options.start,
+        goal: options.goal.unwrap_or(Area::center(dimension)),
+        budget: options.budget,
+        budget_scope: options.budget_scope,
+        longest_move: options.longest_move,
+        exploration_divisor: options.exploration_divisor,
+        seed: options.seed,
+        setting: options.setting,
+    }
+}
+
+struct Arena<'a> {
+    maze: &'a Maze,
+    briefing: Briefing,
+    run: u8,
+    cell: Cell,
+    heading: Heading,
+    played: Played,
+}
+
+impl<'a> Arena<'a> {
+    fn new(maze: &'a Maze, briefing: Briefing) -> Self {
+        Self {
+            maze,
+            briefing,
+            run: 1,
+            cell: briefing.start,
+            heading: Heading::Up,
+            played: Played {
+                finished: false,
+                goal_seen: false,
+                exploration_steps: 0,
+                speed_steps: 0,
+                score: None,
+                stops: Vec::new(),
+                bumps: 0,
+                clamps: 0,
+                resets_before_goal: 0,
+                resets_in_run_2: 0,
+                journal: Vec::new(),
+            },
+        }
+    }
+
+    fn may_go_on(&self) -> bool {
+        let played = &self.played;
+        let used = match (self.briefing.budget_scope, self.run) {
+            (BudgetScope::BothRuns, _) => played.exploration_steps + played.speed_steps,
+            (BudgetScope::EachRun, 1) => played.exploration_steps,
+            (BudgetScope::EachRun, _) => played.speed_steps,
+        };
+        !played.finished && used < self.briefing.budget
+    }
+
+    fn step(&mut self, sensors: Sensors, action: Action) {
+        self.played.stops.push(Stop {
+            run: self.run,
+            cell: self.cell,
+            heading: self.heading,
+            sensors,
+            action,
+        });
+        if self.run == 1 {
+            self.played.exploration_steps += 1;
+        } else {
+            self.played.speed_steps += 1;
+        }
+        match action {
+            Action::Reset => self.reset(),
+            Action::Move(it) => self.drive(it),
+        }
+    }
+
+    fn reset(&mut self) {
+        if self.run == 2 {
+            self.played.resets_in_run_2 += 1;
+        } else if !self.played.goal_seen {
+            self.played.resets_before_goal += 1;
+        } else {
+            self.run = 2;
+            self.cell = self.briefing.start;
+            self.heading = Heading::Up;
+        }
+    }
+
+    fn drive(&mut self, Move { turn, advance }: Move) {
+        self.heading = self.heading.turned(turn);
+        let travel = if advance < 0 {
+            self.heading.opposite()
+        } else {
+            self.heading
+        };
+        let wish = u32::from(advance.unsigned_abs());
+        self.played.clamps += u32::from(wish > self.briefing.longest_move);
+        for _ in 0..wish.min(self.briefing.longest_move) {
+            if !self.maze.is_open(self.cell, travel) {
+                self.played.bumps += 1;
+                break;
+            }
+            self.cell = self
+                .maze
+                .neighbor(self.cell, travel)
+                .expect("the perimeter is closed");
+        }
+        // Only the final cell of a step counts; passing through does not.
+        if self.briefing.goal.contains(self.cell) {
+            self.arrive();
+        }
+    }
+
+    fn arrive(&mut self) {
+        let played = &mut self.played;
+        if self.run == 1 {
+            played.goal_seen = true;
+        } else {
+            played.finished = true;
+            played.score = Some(Score::new(
+                played.exploration_steps,
+                played.speed_steps,
+                self.briefing.exploration_divisor,
+            ));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Turn::{Left, Right, Straight};
+    use crate::testing::MAZE_01;
+
+    #[test]
+    fn scores_have_three_decimals() {
+        let cases = [
+            ((110, 17, 30), "20.667"),
+            ((197, 22, 30), "28.567"),
+            ((18, 17, 30), "17.600"),
+            ((1, 1, 16), "1.062"),
+            ((3, 1, 16), "1.188"),
+            ((u32::MAX, 0, 1), "4294967295.000"),
+        ];
+        for ((exploration, speed, divisor), expected) in cases {
+            let score = Score::new(exploration, speed, divisor);
+            assert_eq!(score.to_string(), expected);
+        }
+    }
+
+    /// Plays a list of answers in maze 01, then turns on the spot.
+    fn played(actions: &[Action], options: &PlayOptions) -> Played {
+        let maze = Maze::parse(MAZE_01);
+        let mut arena = Arena::new(&maze, briefing(maze.dimension, options));
+        let mut actions = actions.iter();
+        while arena.may_go_on() {
+            let action = actions.next().copied().unwrap_or(Action::drive(Left, 0));
+            arena.step(maze.sense(arena.cell, arena.heading), action);
+        }
+        arena.played
+    }
+
+    #[test]
+    fn walls_stop_a_move_and_long_moves_are_clamped() {
+        let actions = [
+            Action::drive(Straight, 7),
+            Action::drive(Right, 1),
+            Action::drive(Left, -5),
+            Action::drive(Straight, -1),
+        ];
+        let played = played(&actions, &PlayOptions::default());
+        let cells: Vec<(u32, u32)> = played.stops[..5]
+            .iter()
+            .map(|it| (it.cell.x, it.cell.y))
+            .collect();
+        assert_eq!(cells, [(0, 0), (0, 3), (0, 3), (0, 0), (0, 0)]);
+        assert_eq!((played.clamps, played.bumps), (2, 2));
+    }
+
+    #[test]
+    fn a_reset_before_the_goal_costs_a_step() {
+        let played = played(&[Action::Reset], &PlayOptions::default());
+        assert_eq!(played.resets_before_goal, 1);
+        assert_eq!((played.exploration_steps, played.speed_steps), (1000, 0));
+        assert_eq!(played.score, None);
+    }
+
+    #[test]
+    fn a_match_ends_in_the_goal_of_run_2_and_not_before() {
+        let options = PlayOptions {
+            goal: Some(Area::new(Cell::new(0, 4), 1, 1)),
+            ..PlayOptions::default()
+        };
+        let there = [Action::drive(Straight, 3), Action::drive(Straight, 1)];
+        let mut actions = vec![Action::drive(Straight, 3), Action::drive(Straight, 2)];
+        // Passed through the goal: this reset is refused.
+        actions.push(Action::Reset);
+        actions.push(Action::drive(Straight, -1));
+        actions.push(Action::Reset);
+        actions.push(Action::Reset);
+        actions.extend(there);
+        let played = played(&actions, &options);
+        assert!(played.finished);
+        assert_eq!((played.resets_before_goal, played.resets_in_run_2), (1, 1));
+        assert_eq!((played.exploration_steps, played.speed_steps), (5, 3));
+        assert_eq!(played.score.map(Score::thousandths), Some(3167));
+    }
+
+    #[test]
+    fn the_scope_of_the_budget() {
+        let arrive = |budget_scope| PlayOptions {
+            goal: Some(Area::new(Cell::new(0, 1), 1, 1)),
+            budget: 10,
+            budget_scope,
+            ..PlayOptions::default()
+        };
+        let actions = [Action::drive(Straight, 1), Action::Reset];
+        let shared = played(&actions, &arrive(BudgetScope::BothRuns));
+        assert_eq!((shared.exploration_steps, shared.speed_steps), (2, 8));
+        let each = played(&actions, &arrive(BudgetScope::EachRun));
+        assert_eq!((each.exploration_steps, each.speed_steps), (2, 10));
+    }
+}

@@ -1,0 +1,34 @@
+//! Native matches for a robot's own tests: no WebAssembly, no host.
+//!
+//! A small, independent implementation of the contest's rules: the Udacity maze
+//! text, sensing, moving, bumps, resets, budget and score. It knows no fuel and
+//! no limits; those belong to the host.
+//!
+//! ```
+//! use wasmouse_sdk::testing::{self, MAZE_01, PlayOptions};
+//! use wasmouse_sdk::{Action, Briefing, Robot, Sensors, Turn};
+//!
+//! struct Parked;
+//!
+//! impl Robot for Parked {
+//!     fn start(_: &Briefing) -> Self {
+//!         Self
+//!     }
+//!
+//!     fn next_move(&mut self, _: Sensors) -> Action {
+//!         Action::drive(Turn::Left, 0)
+//!     }
+//! }
+//!
+//! let played = testing::play::<Parked>(MAZE_01, &PlayOptions::default());
+//! assert!(!played.finished);
+//! assert_eq!(played.exploration_steps, 1000);
+//! ```
+
+mod arena;
+mod maze;
+pub(crate) mod record;
+
+pub use arena::{PlayOptions, Played, Score, Stop, briefing, play};
+pub use maze::MAZE_01;
+pub use record::{Entry, Note};
