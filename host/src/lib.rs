@@ -2,4 +2,5 @@
 
 pub mod cli;
 pub mod maze;
+pub mod robot;
 pub mod sim;
