@@ -2,5 +2,6 @@
 
 pub mod cli;
 pub mod maze;
+pub mod report;
 pub mod robot;
 pub mod sim;

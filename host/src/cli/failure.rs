@@ -47,6 +47,11 @@ impl Failure {
         self
     }
 
+    /// What happened, without the hint.
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+
     /// The exit code that goes with it.
     pub const fn exit(&self) -> Exit {
         self.exit

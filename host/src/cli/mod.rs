@@ -7,6 +7,9 @@
 
 mod exit;
 mod failure;
+mod maze;
+mod mazes;
+mod output;
 
 use std::process::ExitCode;
 
@@ -24,12 +27,17 @@ struct Cli {
 }
 
 #[derive(Subcommand)]
-enum Command {}
+enum Command {
+    /// Look at mazes: check them, convert them.
+    Maze(maze::Args),
+}
 
 /// Runs the command line of this process and returns its exit code.
 pub fn main() -> ExitCode {
     let cli = Cli::parse();
-    let outcome: Result<Exit, Failure> = match cli.command {};
+    let outcome: Result<Exit, Failure> = match cli.command {
+        Command::Maze(args) => maze::run(args),
+    };
     match outcome {
         Ok(exit) => exit.into(),
         Err(failure) => {

@@ -1,0 +1,28 @@
+//! `wasmouse maze`: commands about mazes alone, without robots.
+
+mod check;
+mod convert;
+
+use super::exit::Exit;
+use super::failure::Failure;
+
+/// Arguments of `wasmouse maze`.
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(clap::Subcommand)]
+enum Command {
+    Check(check::Args),
+    Convert(convert::Args),
+}
+
+/// Runs the chosen command.
+pub fn run(args: Args) -> Result<Exit, Failure> {
+    match args.command {
+        Command::Check(args) => check::run(args),
+        Command::Convert(args) => convert::run(args),
+    }
+}

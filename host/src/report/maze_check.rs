@@ -1,0 +1,154 @@
+//! The JSON of `wasmouse maze check`.
+//!
+//! ```json
+//! {
+//!   "schema": 1,
+//!   "mazes": [
+//!     {"source": "a.txt", "format": "udacity", "dimension": 12, "legal": true, "violations": []},
+//!     {"source": "b.txt", "error": "failed to parse maze `b.txt`: the text is empty"}
+//!   ],
+//!   "summary": {
+//!     "files": 2, "mazes": 1, "contest_legal": 1, "solvable": 1,
+//!     "with_unreachable_cells": 0, "with_several_entrances": 0,
+//!     "by_entrances": {"1": 1}
+//!   }
+//! }
+//! ```
+//!
+//! `mazes` is left out when only a summary was asked for.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::maze::format::Parsed;
+use crate::maze::{Cell, Survey, Violation};
+
+/// The version of this JSON; raised when a reader of the old one would go wrong.
+const SCHEMA: u32 = 1;
+
+/// The whole document.
+#[derive(Serialize)]
+pub struct MazeCheck {
+    schema: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mazes: Option<Vec<CheckedMaze>>,
+    summary: Summary,
+}
+
+impl MazeCheck {
+    /// The document for these mazes, or for a summary alone.
+    pub fn new(mazes: Option<Vec<CheckedMaze>>, survey: &Survey) -> Self {
+        Self {
+            schema: SCHEMA,
+            mazes,
+            summary: Summary::new(survey),
+        }
+    }
+
+    /// The document as text, indented, with a newline at the end.
+    pub fn to_json(&self) -> String {
+        let mut text = serde_json::to_string_pretty(self)
+            .expect("strings, numbers and maps with string keys always serialise");
+        text.push('\n');
+        text
+    }
+}
+
+/// What was found out about one maze.
+#[derive(Serialize)]
+pub struct CheckedMaze {
+    source: String,
+    #[serde(flatten)]
+    finding: Finding,
+}
+
+impl CheckedMaze {
+    /// A maze that could be read, and the contest rules that it breaks.
+    pub fn read(source: String, parsed: &Parsed, violations: &[Violation]) -> Self {
+        let finding = Finding::Read {
+            format: parsed.format.name(),
+            dimension: parsed.maze.dimension(),
+            legal: violations.is_empty(),
+            violations: violations.iter().map(BrokenRule::new).collect(),
+        };
+        Self { source, finding }
+    }
+
+    /// A source that could not be read or is no maze.
+    pub fn refused(source: String, error: String) -> Self {
+        let finding = Finding::Refused { error };
+        Self { source, finding }
+    }
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Finding {
+    Read {
+        format: &'static str,
+        dimension: u8,
+        legal: bool,
+        violations: Vec<BrokenRule>,
+    },
+    Refused {
+        error: String,
+    },
+}
+
+#[derive(Serialize)]
+struct BrokenRule {
+    rule: &'static str,
+    message: String,
+    cells: Vec<CellAt>,
+}
+
+impl BrokenRule {
+    fn new(violation: &Violation) -> Self {
+        Self {
+            rule: violation.rule(),
+            message: violation.to_string(),
+            cells: violation.cells().into_iter().map(CellAt::new).collect(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct CellAt {
+    x: u8,
+    y: u8,
+}
+
+impl CellAt {
+    fn new(cell: Cell) -> Self {
+        Self {
+            x: cell.x,
+            y: cell.y,
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct Summary {
+    files: usize,
+    mazes: usize,
+    contest_legal: usize,
+    solvable: usize,
+    with_unreachable_cells: usize,
+    with_several_entrances: usize,
+    by_entrances: BTreeMap<usize, usize>,
+}
+
+impl Summary {
+    fn new(survey: &Survey) -> Self {
+        Self {
+            files: survey.files,
+            mazes: survey.parsed,
+            contest_legal: survey.contest_legal,
+            solvable: survey.solvable,
+            with_unreachable_cells: survey.with_unreachable,
+            with_several_entrances: survey.several_entrances(),
+            by_entrances: survey.by_entrances.clone(),
+        }
+    }
+}

@@ -1,0 +1,7 @@
+//! Reports: what commands print for other programs, one file per output format.
+//!
+//! The last stage of the pipeline `maze -> sim -> robot -> contest -> report`.
+//! Turns values into text and prints nothing itself. Wire structs live here, so
+//! that the domain types can change without changing what programs read.
+
+pub mod maze_check;
