@@ -6,6 +6,7 @@
 mod bundled;
 mod cell;
 pub mod format;
+pub mod generate;
 mod grid;
 mod legality;
 mod listed;

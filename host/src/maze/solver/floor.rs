@@ -35,3 +35,25 @@ pub fn omniscient_floor(maze: &Maze, longest_move: u8) -> Option<Floor> {
         exploration_steps: optimum + 1,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::maze::{LONGEST_MOVE, Walls, bundled, format, shortest_path};
+
+    #[test]
+    fn the_first_official_maze_has_its_known_optimum() {
+        let text = bundled()[0].text;
+        let maze = format::parse(text).expect("a maze").maze;
+        let path = shortest_path(&maze, Metric::STEPS).expect("solvable");
+        assert_eq!((path.steps(), path.cells()), (17, 30));
+        let floor = omniscient_floor(&maze, LONGEST_MOVE).expect("solvable");
+        assert_eq!((floor.speed_steps, floor.exploration_steps), (17, 18));
+    }
+
+    #[test]
+    fn a_maze_without_solution_has_no_floor() {
+        let maze = Maze::contest(Walls::closed(12)).expect("room for both");
+        assert_eq!(omniscient_floor(&maze, LONGEST_MOVE), None);
+    }
+}

@@ -1,0 +1,177 @@
+//! [`Draft`]: a contest maze whose start and goal room are final and whose
+//! other edges are still free.
+
+use super::super::{Area, Cell, Heading, Walls};
+use super::draws::Draws;
+
+/// The edge between two cells, named by the cell on its left or below it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Edge {
+    cell: Cell,
+    /// Up or right.
+    heading: Heading,
+}
+
+impl Edge {
+    /// The edge on that side of `cell`; for [`Heading::Down`] and
+    /// [`Heading::Left`] the cell must not lie at that border of the maze.
+    pub(super) fn new(cell: Cell, heading: Heading) -> Self {
+        match heading {
+            Heading::Up | Heading::Right => Self { cell, heading },
+            Heading::Down | Heading::Left => Self {
+                cell: cell
+                    .step(heading)
+                    .expect("an edge has a cell on both sides"),
+                heading: heading.opposite(),
+            },
+        }
+    }
+
+    /// The cells on both sides.
+    pub(super) fn cells(self) -> [Cell; 2] {
+        let other = self.cell.step(self.heading);
+        [self.cell, other.expect("an edge has a cell on both sides")]
+    }
+
+    /// The posts at both ends, as the cells to whose lower left they stand.
+    pub(super) fn posts(self) -> [Cell; 2] {
+        let Cell { x, y } = self.cell;
+        let far = Cell::new(x + 1, y + 1);
+        match self.heading {
+            Heading::Up | Heading::Down => [Cell::new(x, y + 1), far],
+            Heading::Right | Heading::Left => [Cell::new(x + 1, y), far],
+        }
+    }
+}
+
+/// The start and the goal of a contest maze and freedom for all else.
+///
+/// Final from the beginning: the start is open at the top only, the goal room
+/// has no inner walls and exactly one entrance, at a random one of its eight
+/// outer edges. An edge that is not final can be set once; that makes it final.
+pub(super) struct Draft {
+    walls: Walls,
+    /// By cell index: bits of [`Heading::Up`] and [`Heading::Right`].
+    finals: Vec<u8>,
+}
+
+impl Draft {
+    /// A draft whose free edges all are open, or all closed.
+    pub(super) fn new(blank: Walls, draws: &mut Draws) -> Self {
+        let dimension = blank.dimension();
+        let mut draft = Self {
+            finals: vec![0; usize::from(dimension).pow(2)],
+            walls: blank,
+        };
+        let start = Cell::new(0, 0);
+        draft.set(Edge::new(start, Heading::Up), true);
+        draft.set(Edge::new(start, Heading::Right), false);
+        draft.set_goal(Area::center(dimension), draws);
+        draft
+    }
+
+    fn set_goal(&mut self, goal: Area, draws: &mut Draws) {
+        let mut border = Vec::new();
+        for cell in goal.cells() {
+            for heading in Heading::ALL {
+                let edge = Edge::new(cell, heading);
+                if edge.cells().into_iter().all(|cell| goal.contains(cell)) {
+                    // Met from both of its cells, and final from the first.
+                    if self.is_free(edge) {
+                        self.set(edge, true);
+                    }
+                } else {
+                    border.push(edge);
+                }
+            }
+        }
+        let entrance = draws.pick(&border);
+        for edge in border {
+            self.set(edge, Some(edge) == entrance);
+        }
+    }
+
+    /// The walls as they are now.
+    pub(super) const fn walls(&self) -> &Walls {
+        &self.walls
+    }
+
+    /// The walls, finished.
+    pub(super) fn into_walls(self) -> Walls {
+        self.walls
+    }
+
+    /// Whether nobody has decided about that edge yet.
+    pub(super) fn is_free(&self, edge: Edge) -> bool {
+        self.finals[self.walls.index(edge.cell)] & edge.heading.bit() == 0
+    }
+
+    /// Decides about a free edge.
+    ///
+    /// # Panics
+    ///
+    /// When the edge is final, because that would break a rule of the contest.
+    pub(super) fn set(&mut self, edge: Edge, open: bool) {
+        assert!(self.is_free(edge), "{edge:?} is final");
+        self.walls.set(edge.cell, edge.heading, open);
+        let index = self.walls.index(edge.cell);
+        self.finals[index] |= edge.heading.bit();
+    }
+
+    /// Whether nothing stands on the edge.
+    pub(super) fn is_open(&self, edge: Edge) -> bool {
+        self.walls.is_open(edge.cell, edge.heading)
+    }
+
+    /// All edges between two cells, in the order of the cells.
+    pub(super) fn edges(&self) -> Vec<Edge> {
+        let walls = &self.walls;
+        walls
+            .cells()
+            .flat_map(|cell| [(cell, Heading::Up), (cell, Heading::Right)])
+            .filter(|&(cell, heading)| walls.neighbor(cell, heading).is_some())
+            .map(|(cell, heading)| Edge { cell, heading })
+            .collect()
+    }
+
+    /// The free edges around a cell, clockwise from up.
+    pub(super) fn free_edges_of(&self, cell: Cell) -> Vec<(Heading, Edge)> {
+        Heading::ALL
+            .into_iter()
+            .filter(|&heading| self.walls.neighbor(cell, heading).is_some())
+            .map(|heading| (heading, Edge::new(cell, heading)))
+            .filter(|&(_, edge)| self.is_free(edge))
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_edge_has_one_name() {
+        let cell = Cell::new(3, 4);
+        for heading in Heading::ALL {
+            let other = cell.step(heading).expect("inside");
+            let edge = Edge::new(cell, heading);
+            assert_eq!(edge, Edge::new(other, heading.opposite()));
+            assert!(edge.cells().contains(&cell) && edge.cells().contains(&other));
+        }
+        let right = Edge::new(cell, Heading::Right);
+        assert_eq!(right.posts(), [Cell::new(4, 4), Cell::new(4, 5)]);
+        let up = Edge::new(cell, Heading::Up);
+        assert_eq!(up.posts(), [Cell::new(3, 5), Cell::new(4, 5)]);
+    }
+
+    #[test]
+    fn start_and_goal_are_final_and_all_else_is_free() {
+        let draft = Draft::new(Walls::open(12), &mut Draws::new("test", 12, 1));
+        let edges = draft.edges();
+        assert_eq!(edges.len(), 2 * 12 * 11);
+        let finals = edges.iter().filter(|&&edge| !draft.is_free(edge));
+        assert_eq!(finals.count(), 2 + 4 + 8);
+        let closed = edges.iter().filter(|&&edge| !draft.is_open(edge));
+        assert_eq!(closed.count(), 1 + 7);
+    }
+}
