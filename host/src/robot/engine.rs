@@ -1,0 +1,146 @@
+//! The wasmtime engine: one constructor, a reason beside every setting.
+//!
+//! Whether two hosts give the same verdict and the same fuel depends on this
+//! file and on the version of wasmtime alone; both are in [`engine_id`], which
+//! goes into every result.
+
+use std::thread;
+use std::time::Duration;
+
+use wasmtime::{Config, Engine, InstanceAllocationStrategy, PoolingAllocationConfig};
+
+use super::HostError;
+use crate::sim::Limits;
+
+/// The exact version of wasmtime in `Cargo.toml`; a test compares the two.
+pub const WASMTIME_VERSION: &str = "48.0.8";
+
+/// Raised with every change to this file that can change fuel or a verdict.
+pub const ENGINE_REVISION: u32 = 1;
+
+/// Wall time after which a match is given up as a failure of the host, in
+/// seconds. Fuel ends every match long before (the largest match takes about
+/// 20 s); this catches a host that stands still, and is never a verdict.
+pub const MATCH_SECONDS_MAX: u64 = 300;
+
+const EPOCH: Duration = Duration::from_millis(250);
+
+/// What a result depends on besides robot, maze, ruleset and seed: the version
+/// of wasmtime and the revision of its configuration.
+pub fn engine_id() -> String {
+    format!("wasmtime-{WASMTIME_VERSION}+wasmouse.{ENGINE_REVISION}")
+}
+
+/// Epochs in [`MATCH_SECONDS_MAX`].
+pub(super) const fn match_epochs_max() -> u64 {
+    MATCH_SECONDS_MAX * 1000 / EPOCH.as_millis() as u64
+}
+
+/// The engine of a host that runs up to `matches` matches at the same time.
+///
+/// # Errors
+///
+/// When the machine cannot give the address space for the pool, or the clock
+/// thread cannot be started.
+pub(super) fn new_engine(limits: &Limits, matches: u32) -> Result<Engine, HostError> {
+    let engine = Engine::new(&config(limits, matches)).map_err(HostError::engine)?;
+    start_clock(&engine)?;
+    Ok(engine)
+}
+
+fn config(limits: &Limits, matches: u32) -> Config {
+    let mut config = Config::new();
+
+    // What ends a match. Fuel is exact and reproducible; epochs are the safety
+    // net for a host that stands still.
+    config.consume_fuel(true);
+    config.epoch_interruption(true);
+    config.max_wasm_stack(bytes(limits.stack_bytes_max));
+
+    // What would make two machines differ.
+    config.cranelift_nan_canonicalization(true);
+    config.wasm_relaxed_simd(false);
+    config.wasm_threads(false);
+
+    // Proposals that no known toolchain needs for a robot: less code of
+    // wasmtime that a stranger can reach. Python, JavaScript, Rust, C, Zig and
+    // AssemblyScript robots have been seen to run without them.
+    config.wasm_gc(false);
+    config.wasm_function_references(false);
+    config.wasm_exceptions(false);
+    config.wasm_memory64(false);
+    config.wasm_custom_page_sizes(false);
+    config.wasm_wide_arithmetic(false);
+    config.wasm_stack_switching(false);
+    config.gc_support(false);
+    // Nothing here is asynchronous; without it a call costs less.
+    config.concurrency_support(false);
+
+    // Backtraces come from replaying a failed match, not from every match.
+    config.wasm_backtrace_max_frames(None);
+    config.generate_address_map(false);
+    // Only needed by native profilers and unwinders.
+    config.native_unwind_info(false);
+
+    config.allocation_strategy(InstanceAllocationStrategy::Pooling(pool(limits, matches)));
+    config
+}
+
+/// Slots for `matches` matches: instantiation then takes memory from a warm
+/// pool instead of the operating system.
+fn pool(limits: &Limits, matches: u32) -> PoolingAllocationConfig {
+    let mut pool = PoolingAllocationConfig::new();
+    pool.total_component_instances(matches);
+    pool.total_core_instances(matches.saturating_mul(limits.core_instances_max));
+    pool.total_memories(matches.saturating_mul(limits.memories_max));
+    pool.total_tables(matches.saturating_mul(limits.tables_max));
+    pool.total_gc_heaps(0);
+    pool.max_core_instances_per_component(limits.core_instances_max);
+    pool.max_memories_per_component(limits.memories_max);
+    pool.max_tables_per_component(limits.tables_max);
+    pool.max_memories_per_module(limits.memories_max);
+    pool.max_tables_per_module(limits.tables_max);
+    pool.max_memory_size(bytes(limits.memory_bytes_max));
+    pool.table_elements(bytes(limits.table_elements_max));
+    // Wasmtime's metadata of one component or core instance. Large interpreters
+    // need well under this.
+    pool.max_component_instance_size(1 << 20);
+    pool.max_core_instance_size(1 << 20);
+    pool
+}
+
+fn bytes(limit: u64) -> usize {
+    usize::try_from(limit).unwrap_or(usize::MAX)
+}
+
+/// Advances the epoch for as long as the engine lives.
+fn start_clock(engine: &Engine) -> Result<(), HostError> {
+    let engine = engine.weak();
+    thread::Builder::new()
+        .name("epoch-clock".into())
+        .spawn(move || {
+            while let Some(engine) = engine.upgrade() {
+                engine.increment_epoch();
+                drop(engine);
+                thread::sleep(EPOCH);
+            }
+        })
+        .map_err(HostError::thread)?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_engine_id_names_the_wasmtime_in_use() {
+        let lock = include_str!("../../../Cargo.lock");
+        let locked = format!("name = \"wasmtime\"\nversion = \"{WASMTIME_VERSION}\"");
+        assert!(
+            lock.contains(&locked),
+            "Cargo.lock does not have wasmtime {WASMTIME_VERSION}: \
+             set WASMTIME_VERSION and raise ENGINE_REVISION"
+        );
+    }
+}

@@ -1,0 +1,106 @@
+//! [`Refusal`]: why a file is not admitted as a robot, with what to do about it.
+
+use super::componentize::ComponentizeError;
+
+/// Why a file was not admitted. Says nothing about how the robot would play.
+#[derive(Debug, thiserror::Error)]
+pub enum Refusal {
+    /// The file has no bytes.
+    #[error("the file is empty")]
+    Empty,
+    /// The file is larger than the ruleset allows.
+    #[error("the file has {bytes} bytes, and the limit is {max}")]
+    TooLarge {
+        /// Its size in bytes.
+        bytes: u64,
+        /// The limit in bytes.
+        max: u64,
+    },
+    /// The file is something else than a WebAssembly binary.
+    #[error("the file is not a WebAssembly component: it looks like {0}")]
+    NotWasm(&'static str),
+    /// A core module that cannot be turned into a component.
+    #[error(transparent)]
+    CoreModule(#[from] ComponentizeError),
+    /// The file is malformed, or uses a proposal that is turned off.
+    #[error("the component is not valid: {0}")]
+    Invalid(String),
+    /// The component asks for something that a robot does not get.
+    #[error("the component imports `{0}`, which a robot does not get")]
+    UnknownImport(String),
+    /// The component does not export the controller.
+    #[error("the component does not export `{CONTROLLER}`; it exports {exports}", exports = list(.0))]
+    NoController(Vec<String>),
+    /// An import or export has another type than in the WIT.
+    #[error("the component does not fit the world `robot`: {0}")]
+    WrongType(String),
+    /// The component needs more than the ruleset allows before it even runs.
+    #[error("the component needs {what}, and the limit is {max}")]
+    OverLimit {
+        /// What and how much.
+        what: String,
+        /// The limit.
+        max: u64,
+    },
+}
+
+/// The export that makes a component a robot.
+pub(super) const CONTROLLER: &str = "wasmouse:robot/controller@0.1.0";
+
+fn list(names: &[String]) -> String {
+    if names.is_empty() {
+        return "nothing".into();
+    }
+    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    quoted.join(", ")
+}
+
+impl Refusal {
+    /// A short name as in JSON: lowercase letters and hyphens.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Empty => "empty",
+            Self::TooLarge { .. } => "too-large",
+            Self::NotWasm(_) => "not-wasm",
+            Self::CoreModule(_) => "core-module",
+            Self::Invalid(_) => "invalid",
+            Self::UnknownImport(_) => "unknown-import",
+            Self::NoController(_) => "no-controller",
+            Self::WrongType(_) => "wrong-type",
+            Self::OverLimit { .. } => "over-limit",
+        }
+    }
+
+    /// What the author can do.
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Empty | Self::NotWasm(_) => {
+                "a robot is a WebAssembly component (.wasm); `wasmouse build` makes one of a Rust \
+                 crate or a core module"
+            }
+            Self::TooLarge { .. } => {
+                "build in release mode, without debug information (`strip = \"debuginfo\"`)"
+            }
+            Self::CoreModule(_) => {
+                "build the module against `wit/robot.wit` (in Rust: the crate `wasmouse-sdk`)"
+            }
+            Self::Invalid(_) => {
+                "rebuild it with a released toolchain and without experimental proposals"
+            }
+            Self::UnknownImport(name) if name.starts_with("wasi:") => {
+                "robots have no clock, files, randomness or network: build for \
+                 `wasm32-unknown-unknown` instead of a WASI target, or stub WASI out \
+                 (`--stub-wasi` in componentize-py, `--backend-qjs-stub-wasi` in jco)"
+            }
+            Self::UnknownImport(_) => {
+                "a robot may import `wasmouse:robot/journal@0.1.0` and nothing else"
+            }
+            Self::NoController(_) => {
+                "export the interface `controller` of `wit/robot.wit`; in Rust, call \
+                 `export_robot!` in the crate's root"
+            }
+            Self::WrongType(_) => "rebuild it against this version's `wit/robot.wit`",
+            Self::OverLimit { .. } => "`wasmouse inspect FILE` lists what a component needs",
+        }
+    }
+}
