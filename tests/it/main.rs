@@ -1,1 +1,9 @@
-//! End-to-end tests.
+//! End-to-end tests, one module per topic.
+//!
+//! Tests that need material from outside the repository find it through
+//! [`shared`] and say `skipped: ...` where it is absent.
+
+/// Maze files: reading, round trips, and a survey counted in another way.
+mod formats;
+/// Where the shared material is.
+mod shared;
