@@ -5,11 +5,13 @@
 //! against the contest rules. What a maze is and which rules it breaks is
 //! decided in [`crate::maze`]; this file only knows names, files and hints.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use crate::maze::format::{self, Format, ParseError, Parsed, TEXT_BYTES_MAX};
+use crate::maze::generate::GenSpec;
 use crate::maze::{BundledMaze, Maze, bundled, violations};
 
 use super::failure::Failure;
@@ -18,11 +20,14 @@ use super::failure::Failure;
 pub const SPECIFICATION_HELP: &str = "\
 A maze is one of, in this order:
   -              standard input
+  gen:tree:16:7  a generated maze: gen:KIND:DIMENSION:SEED with the kind division,
+                 tree (also tree,loops=PERCENT) or braid; dimension and seed may
+                 be ranges such as 12..=20 and 1..=100, for many mazes
   test_maze_01   the name of a bundled maze
   a.txt          a file in any format: udacity, competition, map, num
   mazes          a folder: all its .txt, .map, .maz and .num files by name,
                  without subfolders and hidden files
-Write ./NAME for a file or folder that is named like a bundled maze.";
+Write ./NAME for a file or folder that is named like one of the others.";
 
 /// The endings of file names that count as mazes in a folder.
 const EXTENSIONS: [&str; 4] = ["txt", "map", "maz", "num"];
@@ -39,8 +44,9 @@ const HINTS_MAX: usize = 3;
 /// A maze with what a table calls it.
 #[derive(Clone, Debug)]
 pub struct NamedMaze {
-    /// The bundled name, or the file name without its ending. Two files of the
-    /// same name in different folders are named by their paths instead.
+    /// The bundled name, the specification of a generated maze, or the file name
+    /// without its ending. Two files of the same name in different folders are
+    /// named by their paths instead.
     pub name: String,
     /// The maze.
     pub maze: Maze,
@@ -84,17 +90,14 @@ pub fn load(specs: &[String], rules: Legality) -> Result<Vec<NamedMaze>, Failure
     if stdins.count() > 1 {
         return Err(Failure::usage("standard input is given as a maze twice"));
     }
+    let names = unique_names(&sources);
     let mut mazes = Vec::new();
-    for source in &sources {
-        let Parsed { format, maze } = source.read()?;
+    for (source, name) in sources.iter().zip(names) {
+        let (maze, format) = source.read()?;
         if rules == Legality::Contest {
             require_legal(source, &maze)?;
         }
-        mazes.push(NamedMaze {
-            name: unique_name(source, &sources),
-            maze,
-            format: Some(format),
-        });
+        mazes.push(NamedMaze { name, maze, format });
     }
     Ok(mazes)
 }
@@ -102,6 +105,8 @@ pub fn load(specs: &[String], rules: Legality) -> Result<Vec<NamedMaze>, Failure
 /// One maze that a specification names, not yet read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
+    /// A generated maze; its name is the specification of it alone.
+    Generated(String, Maze),
     /// A maze that comes with wasmouse.
     Bundled(&'static BundledMaze),
     /// A file.
@@ -114,10 +119,13 @@ pub enum Source {
 ///
 /// # Errors
 ///
-/// When it names nothing, a folder cannot be listed, or a folder has no mazes.
+/// When it names nothing, a `gen:` specification is wrong, a folder cannot be listed, or a folder has no mazes.
 pub fn resolve(spec: &str) -> Result<Vec<Source>, Failure> {
     if spec == STDIN {
         return Ok(vec![Source::Stdin]);
+    }
+    if GenSpec::is_meant_by(spec) {
+        return generated(spec);
     }
     if let Some(maze) = bundled().iter().find(|maze| maze.name == spec) {
         return Ok(vec![Source::Bundled(maze)]);
@@ -132,22 +140,24 @@ pub fn resolve(spec: &str) -> Result<Vec<Source>, Failure> {
 }
 
 impl Source {
-    /// What messages and listings call it: the bundled name, the path, or `-`.
+    /// What messages and listings call it: the name, the path, or `-`.
     pub fn label(&self) -> String {
         match self {
+            Self::Generated(name, _) => name.clone(),
             Self::Bundled(maze) => maze.name.to_owned(),
             Self::File(path) => shown(path),
             Self::Stdin => STDIN.to_owned(),
         }
     }
 
-    /// Reads and parses the maze.
+    /// Reads the maze; the format is `None` when it did not come from text.
     ///
     /// # Errors
     ///
     /// When it cannot be read or is no maze.
-    pub fn read(&self) -> Result<Parsed, Failure> {
+    pub fn read(&self) -> Result<(Maze, Option<Format>), Failure> {
         let bytes = match self {
+            Self::Generated(_, maze) => return Ok((maze.clone(), None)),
             Self::Bundled(maze) => maze.text.as_bytes().to_vec(),
             Self::File(path) => File::open(path)
                 .and_then(read_limited)
@@ -155,6 +165,11 @@ impl Source {
             Self::Stdin => read_limited(io::stdin().lock())
                 .map_err(|error| unreadable(Path::new(STDIN), &error))?,
         };
+        let Parsed { format, maze } = self.parse(bytes)?;
+        Ok((maze, Some(format)))
+    }
+
+    fn parse(&self, bytes: Vec<u8>) -> Result<Parsed, Failure> {
         let failed = |reason: &dyn std::fmt::Display| {
             Failure::input(format!("failed to parse maze `{}`: {reason}", self.label()))
         };
@@ -181,17 +196,41 @@ impl Source {
             Self::File(path) => path
                 .file_stem()
                 .map_or_else(|| shown(path), |stem| shown(Path::new(stem))),
-            Self::Bundled(_) | Self::Stdin => self.label(),
+            Self::Generated(..) | Self::Bundled(_) | Self::Stdin => self.label(),
         }
     }
 }
 
-fn unique_name(source: &Source, all: &[Source]) -> String {
-    let name = source.short_name();
-    let is_taken = all
-        .iter()
-        .any(|other| other != source && other.short_name() == name);
-    if is_taken { source.label() } else { name }
+/// The short names, or the labels of those sources that share a short name
+/// with another.
+fn unique_names(sources: &[Source]) -> Vec<String> {
+    let mut labels: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for source in sources {
+        let same_name = labels.entry(source.short_name()).or_default();
+        same_name.insert(source.label());
+    }
+    let unique = |source: &Source| {
+        let name = source.short_name();
+        if labels[&name].len() == 1 {
+            name
+        } else {
+            source.label()
+        }
+    };
+    sources.iter().map(unique).collect()
+}
+
+fn generated(spec: &str) -> Result<Vec<Source>, Failure> {
+    let parsed: GenSpec = spec.parse().map_err(|error| {
+        Failure::input(format!(
+            "failed to generate `{}`: {error}",
+            shown(Path::new(spec))
+        ))
+    })?;
+    let mazes = parsed.expand();
+    Ok(mazes
+        .map(|(name, maze)| Source::Generated(name, maze))
+        .collect())
 }
 
 /// Reads at most one byte more than a maze file may have, so that neither a
@@ -333,6 +372,15 @@ mod tests {
     }
 
     #[test]
+    fn generated_mazes_are_named_by_their_own_specification() {
+        let specs = ["gen:tree:12:1..=2".to_owned()];
+        let mazes = load(&specs, Legality::Contest).expect("legal");
+        let names: Vec<&str> = mazes.iter().map(|maze| &maze.name[..]).collect();
+        assert_eq!(names, ["gen:tree,loops=12:12:1", "gen:tree,loops=12:12:2"]);
+        assert_eq!(mazes[0].format, None);
+    }
+
+    #[test]
     fn folders_are_sorted_and_shallow() {
         let text = bundled()[0].text;
         let folder = folder_of(&[
@@ -373,6 +421,12 @@ mod tests {
             Legality::Contest,
             "error: unknown maze `/qq/\\u{1b}qq`: no bundled maze, file or folder has this name\
              \n\nhint: bundled mazes are test_maze_01",
+        );
+        check_error(
+            "gen:tree:13:1",
+            Legality::Contest,
+            "error: failed to generate `SPEC`: dimension: expected an even number from 12 to 20, \
+             or a range such as `12..=20`, found `13`",
         );
         let twice = load(&["-".to_owned(), "-".to_owned()], Legality::Lenient);
         assert_eq!(

@@ -15,14 +15,15 @@
 //! }
 //! ```
 //!
-//! `mazes` is left out when only a summary was asked for.
+//! `mazes` is left out when only a summary was asked for. `format` is null for a
+//! generated maze.
 
 use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::maze::format::Parsed;
-use crate::maze::{Cell, Survey, Violation};
+use crate::maze::format::Format;
+use crate::maze::{Cell, Maze, Survey, Violation};
 
 /// The version of this JSON; raised when a reader of the old one would go wrong.
 const SCHEMA: u32 = 1;
@@ -65,10 +66,16 @@ pub struct CheckedMaze {
 
 impl CheckedMaze {
     /// A maze that could be read, and the contest rules that it breaks.
-    pub fn read(source: String, parsed: &Parsed, violations: &[Violation]) -> Self {
+    /// `format` is `None` when it did not come from text.
+    pub fn read(
+        source: String,
+        maze: &Maze,
+        format: Option<Format>,
+        violations: &[Violation],
+    ) -> Self {
         let finding = Finding::Read {
-            format: parsed.format.name(),
-            dimension: parsed.maze.dimension(),
+            format: format.map(Format::name),
+            dimension: maze.dimension(),
             legal: violations.is_empty(),
             violations: violations.iter().map(BrokenRule::new).collect(),
         };
@@ -86,7 +93,7 @@ impl CheckedMaze {
 #[serde(untagged)]
 enum Finding {
     Read {
-        format: &'static str,
+        format: Option<&'static str>,
         dimension: u8,
         legal: bool,
         violations: Vec<BrokenRule>,

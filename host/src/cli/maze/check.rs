@@ -6,8 +6,8 @@ use super::super::exit::Exit;
 use super::super::failure::Failure;
 use super::super::mazes::{self, Source};
 use super::super::output;
-use crate::maze::format::Parsed;
-use crate::maze::{Survey, Violation, violations};
+use crate::maze::format::Format;
+use crate::maze::{Maze, Survey, Violation, violations};
 use crate::report::maze_check::{CheckedMaze, MazeCheck};
 
 const EXAMPLES: &str = "\
@@ -47,7 +47,14 @@ pub struct Args {
 /// A source and what came out of it.
 struct Checked {
     label: String,
-    outcome: Result<(Parsed, Vec<Violation>), Failure>,
+    outcome: Result<Judged, Failure>,
+}
+
+/// A maze that could be read, and the rules that it breaks.
+struct Judged {
+    maze: Maze,
+    format: Option<Format>,
+    broken: Vec<Violation>,
 }
 
 /// Runs the command: every maze is checked, also after one that cannot be read.
@@ -80,9 +87,10 @@ fn check(spec: &str) -> Vec<Checked> {
 fn check_source(source: &Source) -> Checked {
     Checked {
         label: source.label(),
-        outcome: source.read().map(|parsed| {
-            let broken = violations(&parsed.maze);
-            (parsed, broken)
+        outcome: source.read().map(|(maze, format)| Judged {
+            broken: violations(&maze),
+            maze,
+            format,
         }),
     }
 }
@@ -91,7 +99,7 @@ fn survey(checked: &[Checked]) -> Survey {
     let mut survey = Survey::default();
     for checked in checked {
         match &checked.outcome {
-            Ok((parsed, _)) => survey.add(&parsed.maze),
+            Ok(judged) => survey.add(&judged.maze),
             Err(_) => survey.add_refused(),
         }
     }
@@ -100,7 +108,7 @@ fn survey(checked: &[Checked]) -> Survey {
 
 fn exit(checked: &[Checked], lenient: bool) -> Exit {
     let outcomes = || checked.iter().map(|checked| &checked.outcome);
-    let is_illegal = |(_, broken): &(Parsed, Vec<Violation>)| !broken.is_empty();
+    let is_illegal = |judged: &Judged| !judged.broken.is_empty();
     if outcomes().any(Result::is_err) {
         Exit::Input
     } else if !lenient && outcomes().flatten().any(is_illegal) {
@@ -113,7 +121,7 @@ fn exit(checked: &[Checked], lenient: bool) -> Exit {
 fn listing(checked: &[Checked], lenient: bool) -> String {
     let mut text = String::new();
     for checked in checked {
-        let Ok((_, broken)) = &checked.outcome else {
+        let Ok(Judged { broken, .. }) = &checked.outcome else {
             continue;
         };
         let verdict = match (broken.len(), lenient) {
@@ -160,9 +168,102 @@ fn json(checked: &[Checked], summary: bool, survey: &Survey) -> String {
     let mazes = checked.iter().map(|checked| {
         let source = checked.label.clone();
         match &checked.outcome {
-            Ok((parsed, broken)) => CheckedMaze::read(source, parsed, broken),
+            Ok(judged) => CheckedMaze::read(source, &judged.maze, judged.format, &judged.broken),
             Err(failure) => CheckedMaze::refused(source, failure.message().to_owned()),
         }
     });
     MazeCheck::new((!summary).then(|| mazes.collect()), survey).to_json()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+    use crate::maze::bundled;
+
+    /// A legal maze, one with a wall less, and no maze.
+    fn folder() -> tempfile::TempDir {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let legal = bundled()[0].text;
+        let opened = legal
+            .replacen("\n1,", "\n3,", 1)
+            .replacen("\n3,5,14", "\n11,5,14", 1);
+        let files = [("a.txt", legal), ("b.txt", &opened), ("c.txt", "no maze")];
+        for (name, text) in files {
+            fs::write(folder.path().join(name), text).expect("a file");
+        }
+        folder
+    }
+
+    fn check_files(names: &[&str], lenient: bool) -> (String, Exit, Survey) {
+        let folder = folder();
+        let path = |name: &&str| folder.path().join(name).display().to_string();
+        let checked: Vec<Checked> = names.iter().flat_map(|name| check(&path(name))).collect();
+        let place = format!("{}/", folder.path().display());
+        let text = listing(&checked, lenient).replace(&place, "");
+        (text, exit(&checked, lenient), survey(&checked))
+    }
+
+    const RULE: &str = "  the start is open at the top only: (0, 0) is open up, right\n";
+
+    #[test]
+    fn the_worst_maze_decides_the_exit_code() {
+        let (text, exit, _) = check_files(&["a.txt"], false);
+        assert_eq!((&text[..], exit), ("a.txt: ok\n", Exit::Success));
+
+        let (text, exit, _) = check_files(&["b.txt", "a.txt"], false);
+        let expected = format!("b.txt: breaks 1 contest rule\n{RULE}a.txt: ok\n");
+        assert_eq!((text, exit), (expected, Exit::No));
+
+        let (text, exit, _) = check_files(&["b.txt"], true);
+        let expected = format!("b.txt: ok, but breaks 1 contest rule\n{RULE}");
+        assert_eq!((text, exit), (expected, Exit::Success));
+
+        // Unreadable mazes do not keep the others from being checked.
+        for lenient in [false, true] {
+            let (text, exit, survey) = check_files(&["c.txt", "none.txt", "", "a.txt"], lenient);
+            let sources: Vec<&str> = text.lines().filter(|line| !line.starts_with(' ')).collect();
+            assert_eq!(sources.len(), 3);
+            assert_eq!(exit, Exit::Input);
+            assert_eq!((survey.files, survey.parsed), (6, 3));
+        }
+    }
+
+    #[test]
+    fn the_summary_counts() {
+        let (_, _, survey) = check_files(&[""], false);
+        assert_eq!(
+            summary(&survey),
+            "     3 files\n     2 mazes\n     1 keep all contest rules\n     2 solvable\n     \
+             0 with unreachable cells\n     0 with several goal entrances\n     \
+             2   with 1 entrance\n"
+        );
+    }
+
+    #[test]
+    fn json_is_complete() {
+        let folder = folder();
+        let specs = [
+            folder.path().display().to_string(),
+            "gen:braid:12:1".to_owned(),
+        ];
+        let checked: Vec<Checked> = specs.iter().flat_map(|spec| check(spec)).collect();
+        let survey = survey(&checked);
+        let full: serde_json::Value =
+            serde_json::from_str(&json(&checked, false, &survey)).expect("JSON");
+        assert_eq!(full["schema"], 1);
+        assert_eq!(full["mazes"][0]["legal"], true);
+        assert_eq!(full["mazes"][0]["format"], "udacity");
+        let broken = &full["mazes"][1]["violations"][0];
+        assert_eq!(broken["rule"], "start-walls");
+        assert_eq!(broken["cells"], serde_json::json!([{"x": 0, "y": 0}]));
+        assert!(full["mazes"][2]["error"].is_string());
+        assert_eq!(full["mazes"][3]["format"], serde_json::Value::Null);
+        let short: serde_json::Value =
+            serde_json::from_str(&json(&checked, true, &survey)).expect("JSON");
+        assert_eq!(short.get("mazes"), None);
+        assert_eq!(short["summary"], full["summary"]);
+        assert_eq!(short["summary"]["by_entrances"]["1"], 3);
+    }
 }
