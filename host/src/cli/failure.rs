@@ -27,6 +27,11 @@ impl Failure {
         Self::new(Exit::Input, message)
     }
 
+    /// A robot that cannot take part.
+    pub fn robot(message: impl fmt::Display) -> Self {
+        Self::new(Exit::Robot, message)
+    }
+
     /// A failure of the host itself.
     pub fn host(message: impl fmt::Display) -> Self {
         Self::new(Exit::Host, message)

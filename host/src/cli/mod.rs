@@ -5,11 +5,13 @@
 //! file with its arguments and a `run` function; typed arguments become domain
 //! values there, and nothing below sees a flag.
 
+mod build;
 mod exit;
 mod failure;
 mod maze;
 mod mazes;
 mod output;
+mod toolchain;
 
 use std::process::ExitCode;
 
@@ -30,6 +32,7 @@ struct Cli {
 enum Command {
     /// Look at mazes: check them, convert them.
     Maze(maze::Args),
+    Build(build::Args),
 }
 
 /// Runs the command line of this process and returns its exit code.
@@ -37,6 +40,7 @@ pub fn main() -> ExitCode {
     let cli = Cli::parse();
     let outcome: Result<Exit, Failure> = match cli.command {
         Command::Maze(args) => maze::run(args),
+        Command::Build(args) => build::run(&args),
     };
     match outcome {
         Ok(exit) => exit.into(),

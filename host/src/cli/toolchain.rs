@@ -1,0 +1,333 @@
+//! Finds a compiler for `wasm32-unknown-unknown`: rustup's, or a packaged one.
+//!
+//! [`Probe::run`] looks at the machine, [`plan`] decides (a pure function, so
+//! that every kind of machine is a test), and [`Toolchain::find`] carries the
+//! decision out. Compiling itself is [`super::build`]'s work.
+
+use std::ffi::OsString;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use super::failure::Failure;
+
+/// The target of robots: it has no WASI, so nothing of it can be imported.
+pub const WASM_TARGET: &str = "wasm32-unknown-unknown";
+
+/// How a person gets the target, in both ways.
+const INSTALL_HINT: &str = "\
+with rustup:             rustup target add wasm32-unknown-unknown
+on Debian or Ubuntu:     apt-get install --no-install-recommends rustc-web rust-web-src lld
+                         (a packaged compiler is found by itself then)";
+
+/// A compiler outside rustup that can build for [`WASM_TARGET`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Packaged {
+    rustc: PathBuf,
+    linker: PathBuf,
+    /// Whether the standard library has to be compiled from source.
+    build_std: bool,
+}
+
+/// What there is on this machine.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+struct Probe {
+    /// Whether the compiler that cargo uses in this folder has the target.
+    has_target: bool,
+    /// Whether rustup can be asked to add it.
+    has_rustup: bool,
+    packaged: Option<Packaged>,
+}
+
+/// What to do about it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Plan {
+    /// Build with the compiler that cargo uses anyway.
+    AsIs,
+    /// Ask rustup, then look again.
+    AskRustup,
+    /// Build with a packaged compiler.
+    UsePackaged(Packaged),
+    /// Tell the person.
+    GiveUp,
+}
+
+/// Chooses the way with the fewest surprises: the compiler that is there, then
+/// rustup, then a packaged compiler.
+fn plan(probe: &Probe, rustup_was_asked: bool) -> Plan {
+    match probe {
+        Probe {
+            has_target: true, ..
+        } => Plan::AsIs,
+        Probe {
+            has_rustup: true, ..
+        } if !rustup_was_asked => Plan::AskRustup,
+        Probe {
+            packaged: Some(packaged),
+            ..
+        } => Plan::UsePackaged(packaged.clone()),
+        _ => Plan::GiveUp,
+    }
+}
+
+/// How to run cargo so that it compiles for [`WASM_TARGET`].
+#[derive(Debug, Default, PartialEq, Eq)]
+pub struct Toolchain {
+    /// Arguments for `cargo build`.
+    pub arguments: Vec<OsString>,
+    /// Variables for cargo's environment.
+    pub environment: Vec<(&'static str, OsString)>,
+}
+
+impl Toolchain {
+    /// Finds the toolchain for a crate in `folder`, which may choose its own with
+    /// a `rust-toolchain.toml`. Asks rustup to add the target where it is
+    /// missing, and says so on stderr.
+    ///
+    /// # Errors
+    ///
+    /// Fails with both ways to install the target when there is none.
+    pub fn find(folder: &Path) -> Result<Self, Failure> {
+        let probe = Probe::run(folder);
+        match plan(&probe, false) {
+            Plan::AskRustup => {
+                let probe = if add_target(folder) {
+                    Probe::run(folder)
+                } else {
+                    probe
+                };
+                Self::from_plan(plan(&probe, true))
+            }
+            plan => Self::from_plan(plan),
+        }
+    }
+
+    fn from_plan(plan: Plan) -> Result<Self, Failure> {
+        match plan {
+            Plan::AsIs => Ok(Self::default()),
+            Plan::UsePackaged(packaged) => {
+                anstream::eprintln!(
+                    "using the packaged compiler {} with {}",
+                    packaged.rustc.display(),
+                    packaged.linker.display()
+                );
+                Ok(Self::from_packaged(&packaged))
+            }
+            Plan::AskRustup | Plan::GiveUp => Err(Failure::host(format_args!(
+                "no Rust compiler for {WASM_TARGET} on this machine"
+            ))
+            .hint(INSTALL_HINT)),
+        }
+    }
+
+    fn from_packaged(packaged: &Packaged) -> Self {
+        let mut toolchain = Self {
+            arguments: Vec::new(),
+            environment: vec![
+                ("RUSTC", packaged.rustc.clone().into()),
+                (
+                    "CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER",
+                    packaged.linker.clone().into(),
+                ),
+            ],
+        };
+        if packaged.build_std {
+            // `-Z` needs a nightly compiler or this variable; it is only used to
+            // compile the standard library that fits this very compiler.
+            toolchain.environment.push(("RUSTC_BOOTSTRAP", "1".into()));
+            toolchain
+                .arguments
+                .push("-Zbuild-std=std,panic_abort".into());
+        }
+        toolchain
+    }
+}
+
+impl Probe {
+    fn run(folder: &Path) -> Self {
+        let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+        let library = sysroot(&rustc, folder).map(|sysroot| target_library(&sysroot));
+        Self {
+            has_target: library.is_some_and(|library| library.is_dir()),
+            has_rustup: quiet("rustup", folder).arg("--version").status().is_ok(),
+            packaged: Packaged::probe(folder, &[Path::new("/usr/bin"), Path::new("/bin")]),
+        }
+    }
+}
+
+impl Packaged {
+    fn probe(folder: &Path, bin_folders: &[&Path]) -> Option<Self> {
+        let rustc = bin_folders
+            .iter()
+            .map(|bin| bin.join("rustc"))
+            .find(|rustc| rustc.is_file())?;
+        let sysroot = sysroot(rustc.as_os_str(), folder)?;
+        let build_std = !target_library(&sysroot).is_dir();
+        let library_source = sysroot.join("lib/rustlib/src/rust/library/std/Cargo.toml");
+        if build_std && !library_source.is_file() {
+            return None;
+        }
+        let linker = bin_folders.iter().find_map(|bin| newest_wasm_ld(bin))?;
+        Some(Self {
+            rustc,
+            linker,
+            build_std,
+        })
+    }
+}
+
+/// Where a compiler with this sysroot keeps the target's standard library.
+fn target_library(sysroot: &Path) -> PathBuf {
+    sysroot.join("lib/rustlib").join(WASM_TARGET).join("lib")
+}
+
+/// Where a compiler looks for standard libraries; `None` if it cannot be run.
+fn sysroot(rustc: &std::ffi::OsStr, folder: &Path) -> Option<PathBuf> {
+    let output = quiet(rustc, folder)
+        .args(["--print", "sysroot"])
+        .stdout(Stdio::piped())
+        .output()
+        .ok()
+        .filter(|output| output.status.success())?;
+    let text = String::from_utf8(output.stdout).ok()?;
+    Some(PathBuf::from(text.trim_end()))
+}
+
+/// `wasm-ld` if there is one, else the `wasm-ld-N` with the greatest `N`:
+/// distributions install it under a versioned name.
+fn newest_wasm_ld(bin: &Path) -> Option<PathBuf> {
+    let plain = bin.join("wasm-ld");
+    if plain.is_file() {
+        return Some(plain);
+    }
+    let version = |name: &str| name.strip_prefix("wasm-ld-")?.parse::<u32>().ok();
+    std::fs::read_dir(bin)
+        .ok()?
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .filter_map(|name| Some((version(&name)?, name)))
+        .max()
+        .map(|(_, name)| bin.join(name))
+}
+
+/// Asks rustup for the target; says on stderr what happens.
+fn add_target(folder: &Path) -> bool {
+    anstream::eprintln!("adding the target {WASM_TARGET} with rustup");
+    // rustup's stdout is talk, and ours is data.
+    let status: io::Result<_> = quiet("rustup", folder)
+        .args(["target", "add", WASM_TARGET])
+        .stderr(Stdio::inherit())
+        .status();
+    let added = status.is_ok_and(|status| status.success());
+    if !added {
+        anstream::eprintln!("rustup could not add the target");
+    }
+    added
+}
+
+/// A command in `folder` that says nothing.
+fn quiet(program: impl AsRef<std::ffi::OsStr>, folder: &Path) -> Command {
+    let mut command = Command::new(program);
+    command
+        .current_dir(folder)
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null());
+    command
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn packaged(build_std: bool) -> Packaged {
+        Packaged {
+            rustc: "/usr/bin/rustc".into(),
+            linker: "/usr/bin/wasm-ld-22".into(),
+            build_std,
+        }
+    }
+
+    #[track_caller]
+    fn check(
+        has_target: bool,
+        has_rustup: bool,
+        has_packaged: bool,
+        first: &Plan,
+        after_rustup: &Plan,
+    ) {
+        let probe = Probe {
+            has_target,
+            has_rustup,
+            packaged: has_packaged.then(|| packaged(true)),
+        };
+        assert_eq!(plan(&probe, false), *first);
+        assert_eq!(plan(&probe, true), *after_rustup);
+    }
+
+    #[test]
+    fn every_kind_of_machine_has_a_plan() {
+        let use_packaged = Plan::UsePackaged(packaged(true));
+        for has_rustup in [false, true] {
+            for has_packaged in [false, true] {
+                check(true, has_rustup, has_packaged, &Plan::AsIs, &Plan::AsIs);
+            }
+        }
+        check(false, true, true, &Plan::AskRustup, &use_packaged);
+        check(false, true, false, &Plan::AskRustup, &Plan::GiveUp);
+        check(false, false, true, &use_packaged, &use_packaged);
+        check(false, false, false, &Plan::GiveUp, &Plan::GiveUp);
+    }
+
+    #[test]
+    fn giving_up_tells_both_ways() {
+        let failure = Toolchain::from_plan(Plan::GiveUp).unwrap_err().to_string();
+        assert!(failure.contains("rustup target add wasm32-unknown-unknown"));
+        assert!(failure.contains("apt-get install --no-install-recommends rustc-web"));
+    }
+
+    #[test]
+    fn the_packaged_compiler_builds_std_only_where_it_must() {
+        let from_source = Toolchain::from_packaged(&packaged(true));
+        assert_eq!(from_source.arguments, ["-Zbuild-std=std,panic_abort"]);
+        assert!(
+            from_source
+                .environment
+                .contains(&("RUSTC_BOOTSTRAP", "1".into()))
+        );
+        let ready = Toolchain::from_packaged(&packaged(false));
+        assert!(ready.arguments.is_empty());
+        assert_eq!(
+            ready.environment,
+            [
+                ("RUSTC", "/usr/bin/rustc".into()),
+                (
+                    "CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER",
+                    "/usr/bin/wasm-ld-22".into()
+                ),
+            ]
+        );
+    }
+
+    #[test]
+    fn the_newest_linker_is_found() {
+        let bin = tempfile::tempdir().unwrap();
+        assert_eq!(newest_wasm_ld(bin.path()), None);
+        for name in ["wasm-ld-9", "wasm-ld-22", "wasm-ld-x", "lld-23"] {
+            std::fs::write(bin.path().join(name), "").unwrap();
+        }
+        assert_eq!(
+            newest_wasm_ld(bin.path()),
+            Some(bin.path().join("wasm-ld-22"))
+        );
+        std::fs::write(bin.path().join("wasm-ld"), "").unwrap();
+        assert_eq!(newest_wasm_ld(bin.path()), Some(bin.path().join("wasm-ld")));
+    }
+
+    #[test]
+    fn a_compiler_that_is_not_there_has_no_sysroot() {
+        let here = Path::new(".");
+        assert_eq!(sysroot("/nonexistent/rustc".as_ref(), here), None);
+        let empty = tempfile::tempdir().unwrap();
+        assert_eq!(Packaged::probe(here, &[empty.path()]), None);
+    }
+}
