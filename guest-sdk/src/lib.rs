@@ -6,6 +6,10 @@
 //! | to | use |
 //! |---|---|
 //! | say where the robot is | [`Cell`], [`Heading`], [`Pose`] |
+//! | remember walls | [`Map`], [`Passages`], [`CellSet`] |
+//! | keep pose, map and budget together | [`Tracker`] |
+//! | find the fewest steps | [`Search`] |
+//! | roll dice | [`Random`] |
 //! | tell the people who watch something | [`journal`] |
 //! | test a robot natively, without WebAssembly | [`testing`] |
 //!
@@ -16,14 +20,24 @@
 pub mod bindings;
 mod geometry;
 pub mod journal;
+mod map;
+mod passages;
 mod pose;
+mod random;
 mod robot;
+mod search;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod testing;
+mod tracker;
 
 pub use bindings::wasmouse::robot::types::{
     Action, Area, Briefing, BudgetScope, Cell, Heading, Move, Sensors, Turn,
 };
 pub use geometry::DIMENSION_MAX;
+pub use map::{Map, News, View, Wall};
+pub use passages::{CellSet, Passages};
 pub use pose::Pose;
+pub use random::Random;
 pub use robot::Robot;
+pub use search::{Hop, Search};
+pub use tracker::{Run, Tracker};

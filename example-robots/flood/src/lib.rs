@@ -1,1 +1,222 @@
-//! flood
+//! The flood robot: always on the shortest path that may still exist.
+//!
+//! Its name comes from the flood fill of micromouse robots: numbers spread from
+//! the goal like water, and the robot runs downhill. Here the numbers are steps
+//! of up to three cells, not cells, because steps are what the contest counts.
+//! No report describes exactly this robot; it is the yardstick for theirs.
+//!
+//! - *Exploring*: walls not seen yet count as open. After every reading it looks
+//!   for the fewest steps to the goal under that assumption and takes the first.
+//! - *In the goal* it resets (setting 0), or goes on exploring (setting 1): it
+//!   drives to the first unknown wall on the path of fewest steps from start to
+//!   goal, again and again, until that whole path is known to be open, or the
+//!   budget has just enough steps left for the race.
+//! - *Racing*: the fewest steps through walls known to be open.
+//!
+//! Between paths of equal length it prefers to drive on straight, then right, then
+//! left, then backwards, and longer drives to shorter ones.
+//!
+//! It reaches the goal wherever that is possible within the budget: it only stays
+//! away from walls it has seen, and every detour has taught it one. When the goal
+//! turns out to be walled in, it turns on the spot until the budget is used up.
+//!
+//! Settings: 0 resets in the goal, 1 explores until the best path is certain.
+
+use wasmouse_sdk::{
+    Action, Briefing, Cell, CellSet, Heading, Robot, Run, Search, Sensors, Tracker, Turn, View,
+    export_robot,
+};
+
+/// The robot.
+pub struct Flood {
+    tracker: Tracker,
+    search: Search,
+    goal: CellSet,
+    explores_on: bool,
+}
+
+export_robot!(Flood);
+
+impl Robot for Flood {
+    fn start(briefing: &Briefing) -> Self {
+        let explores_on = match briefing.setting {
+            0 => false,
+            1 => true,
+            _ => panic!("flood has the settings 0 and 1"),
+        };
+        Self {
+            tracker: Tracker::new(briefing),
+            search: Search::new(briefing.dimension, briefing.longest_move),
+            goal: CellSet::from(briefing.goal),
+            explores_on,
+        }
+    }
+
+    fn next_move(&mut self, sensors: Sensors) -> Action {
+        self.tracker.observe(sensors);
+        if self.tracker.run() == Run::Speed {
+            return self.drive_to_goal(View::Pessimistic);
+        }
+        if !self.tracker.may_reset() {
+            return self.drive_to_goal(View::Optimistic);
+        }
+        match self.next_question() {
+            Some(question) => self.look_into(question),
+            None => self.tracker.reset(),
+        }
+    }
+}
+
+/// A wall that the robot would like to see.
+struct Question {
+    cell: Cell,
+    side: Heading,
+}
+
+impl Flood {
+    fn drive_to_goal(&mut self, view: View) -> Action {
+        let passages = self.tracker.map().passages(view);
+        self.search
+            .fill_until(passages, &self.goal, self.tracker.cell());
+        self.drive(view)
+    }
+
+    /// The first step of the way that was searched last.
+    fn drive(&mut self, view: View) -> Action {
+        let passages = self.tracker.map().passages(view);
+        let ahead = self.tracker.pose().heading;
+        let order = [
+            ahead,
+            ahead.turned(Turn::Right),
+            ahead.turned(Turn::Left),
+            ahead.opposite(),
+        ];
+        let hop = self.search.hop_toward(passages, self.tracker.cell(), order);
+        match hop {
+            Some(hop) => self.tracker.go(hop.heading, hop.cells),
+            None => self.tracker.turn(Turn::Right),
+        }
+    }
+
+    /// The first unknown wall on the best path from start to goal that may exist;
+    /// `None` when there is nothing more to ask, or no time.
+    fn next_question(&mut self) -> Option<Question> {
+        if !self.explores_on || !self.has_time() {
+            return None;
+        }
+        let start = self.tracker.briefing().start;
+        let map = self.tracker.map();
+        let passages = map.passages(View::Optimistic);
+        self.search.fill_until(passages, &self.goal, start);
+        let mut cell = start;
+        for hop in self.search.route(passages, start) {
+            let known = map.passages(View::Pessimistic);
+            let clear = known.clear_cells(cell, hop.heading, hop.cells);
+            cell = cell.toward(hop.heading, clear)?;
+            if clear < hop.cells {
+                let side = hop.heading;
+                return Some(Question { cell, side });
+            }
+        }
+        None
+    }
+
+    /// Whether one more step leaves enough of the budget for the race.
+    fn has_time(&mut self) -> bool {
+        let start = self.tracker.briefing().start;
+        let passages = self.tracker.map().passages(View::Pessimistic);
+        self.search.fill_until(passages, &self.goal, start);
+        self.search
+            .steps(start)
+            .is_some_and(|race| self.tracker.can_afford(1, race))
+    }
+
+    /// Drives towards the cell of the question; there, looks at the wall.
+    fn look_into(&mut self, Question { cell, side }: Question) -> Action {
+        let here = self.tracker.cell();
+        if here == cell {
+            return self.tracker.go(side, 1);
+        }
+        let passages = self.tracker.map().passages(View::Pessimistic);
+        self.search.fill_until(passages, &CellSet::from(cell), here);
+        self.drive(View::Pessimistic)
+    }
+}
+
+#[cfg(test)]
+#[path = "../../contest_mazes.rs"]
+mod contest_mazes;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wasmouse_sdk::Area;
+    use wasmouse_sdk::testing::{self, MAZE_01, PlayOptions};
+
+    fn check(maze: &str, options: &PlayOptions, expected: &str) {
+        let played = testing::play::<Flood>(maze, options);
+        assert_eq!(played.summary(), expected);
+        assert_eq!(played.bumps, 0);
+    }
+
+    #[test]
+    fn contest_mazes() {
+        let expected = [
+            (1, 0, "finished 31 + 21: 22.033"),
+            (2, 0, "finished 68 + 28: 30.267"),
+            (3, 0, "finished 92 + 43: 46.067"),
+            // The optima, with a longer exploration.
+            (1, 1, "finished 146 + 17: 21.867"),
+            (2, 1, "finished 193 + 22: 28.433"),
+            (3, 1, "finished 281 + 25: 34.367"),
+        ];
+        let mazes = contest_mazes::contest_mazes();
+        for (number, setting, expected) in expected {
+            let options = PlayOptions {
+                setting,
+                ..PlayOptions::default()
+            };
+            if let Some((_, maze)) = mazes.iter().find(|it| it.0 == number) {
+                check(maze, &options, expected);
+            }
+        }
+    }
+
+    /// The smallest budget that is enough for setting 0 is enough for setting 1.
+    #[test]
+    fn stops_exploring_in_time() {
+        for (budget, expected) in [(52, "finished 31 + 21: 22.033"), (51, "goal seen 31 + 20")] {
+            let options = PlayOptions {
+                setting: 1,
+                budget,
+                ..PlayOptions::default()
+            };
+            check(MAZE_01, &options, expected);
+        }
+    }
+
+    #[test]
+    fn a_goal_behind_the_start() {
+        let options = PlayOptions {
+            start: Cell::new(0, 11),
+            goal: Some(Area::new(Cell::new(0, 2), 1, 1)),
+            ..PlayOptions::default()
+        };
+        check(MAZE_01, &options, "finished 5 + 3: 3.167");
+    }
+
+    #[test]
+    fn a_goal_that_is_walled_in() {
+        let maze = "3\n1,5,4\n0,0,0\n0,0,0";
+        check(maze, &PlayOptions::default(), "goal not seen 1000 + 0");
+    }
+
+    #[test]
+    #[should_panic(expected = "settings 0 and 1")]
+    fn an_unknown_setting() {
+        Flood::start(&Briefing {
+            setting: 2,
+            ..Briefing::contest(12)
+        });
+    }
+}

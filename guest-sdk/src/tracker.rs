@@ -1,0 +1,268 @@
+//! A robot's memory of a match: [`Tracker`] joins pose, map and rules.
+//!
+//! It decides nothing; it keeps the books. Robots ask it what they know, and
+//! answer with the actions it makes, so that what it believes stays true.
+
+use crate::{Action, Briefing, BudgetScope, Cell, Heading, Map, News, Pose, Sensors, Turn, View};
+
+/// Which of the two runs is on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Run {
+    /// Run 1: find the goal, learn the maze, reset.
+    Exploration,
+    /// Run 2: to the goal in few steps.
+    Speed,
+}
+
+/// Where the robot is, what it has seen, and how many steps are left.
+///
+/// Once a step: [`observe`](Self::observe) the sensors, then answer with what
+/// [`go`](Self::go) or [`reset`](Self::reset) return. Drives are cut to what is
+/// known to be open, so a tracked robot never bumps and always knows its pose.
+///
+/// ```
+/// use wasmouse_sdk::{Action, Briefing, Cell, Heading, Sensors, Tracker, Turn};
+///
+/// let mut tracker = Tracker::new(&Briefing::contest(12));
+/// tracker.observe(Sensors { left: 0, front: 2, right: 0 });
+/// assert_eq!(tracker.go(Heading::Up, 3), Action::drive(Turn::Straight, 2));
+/// assert_eq!(tracker.pose().cell, Cell::new(0, 2));
+/// tracker.observe(Sensors { left: 0, front: 0, right: 4 });
+/// assert_eq!(tracker.go(Heading::Down, 1), Action::drive(Turn::Straight, -1));
+/// assert_eq!(tracker.steps_left(), 998);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Tracker {
+    briefing: Briefing,
+    pose: Pose,
+    map: Map,
+    run: Run,
+    /// Whether a step of run 1 has ended in the goal.
+    goal_seen: bool,
+    steps_left: u32,
+}
+
+impl Tracker {
+    /// At the start of run 1, with an empty map.
+    ///
+    /// # Panics
+    ///
+    /// When the dimension of the briefing is outside 2..=64 or the start is
+    /// outside the maze.
+    pub fn new(briefing: &Briefing) -> Self {
+        let map = Map::new(briefing.dimension);
+        assert!(
+            map.contains(briefing.start),
+            "the start is outside the maze"
+        );
+        Self {
+            briefing: *briefing,
+            pose: Pose::at_start(briefing.start),
+            map,
+            run: Run::Exploration,
+            goal_seen: false,
+            steps_left: briefing.budget,
+        }
+    }
+
+    /// Enters the readings of this step into the map.
+    pub fn observe(&mut self, sensors: Sensors) -> News {
+        self.map.observe(self.pose, sensors)
+    }
+
+    /// The step that drives up to `cells` cells in that direction of the maze, no
+    /// further than is known to be open and than one step can.
+    ///
+    /// Turns where the direction is at a side, drives backwards where it is
+    /// behind. Behind the robot there is no sensor: when the nearest wall there is
+    /// unknown, it turns right on the spot instead, to see it in the next step.
+    pub fn go(&mut self, heading: Heading, cells: u32) -> Action {
+        let cells = cells.min(self.briefing.longest_move).min(i8::MAX as u32);
+        let known = self.map.passages(View::Pessimistic);
+        let clear = known.clear_cells(self.pose.cell, heading, cells);
+        let advance = clear as i8;
+        match self.pose.heading.turn_to(heading) {
+            Some(turn) => self.answer(turn, heading, advance),
+            None if clear == 0 && cells > 0 && self.may_be_open(heading) => {
+                self.answer(Turn::Right, heading, 0)
+            }
+            None => self.answer(Turn::Straight, heading, -advance),
+        }
+    }
+
+    /// The step that only turns.
+    pub fn turn(&mut self, turn: Turn) -> Action {
+        self.answer(turn, self.pose.heading, 0)
+    }
+
+    /// The reset: on to run 2, at the start. Where it would be refused (see
+    /// [`may_reset`](Self::may_reset)) the pose stays and the step is lost.
+    pub fn reset(&mut self) -> Action {
+        self.steps_left = self.steps_left.saturating_sub(1);
+        if self.may_reset() {
+            self.run = Run::Speed;
+            self.pose = Pose::at_start(self.briefing.start);
+            if self.briefing.budget_scope == BudgetScope::EachRun {
+                self.steps_left = self.briefing.budget;
+            }
+        }
+        Action::Reset
+    }
+
+    /// Whether a reset would be accepted: in run 1, once a step has ended in the
+    /// goal.
+    pub fn may_reset(&self) -> bool {
+        self.run == Run::Exploration && self.goal_seen
+    }
+
+    /// Whether the robot stands in the goal.
+    pub const fn in_goal(&self) -> bool {
+        self.briefing.goal.contains(self.pose.cell)
+    }
+
+    /// Where the robot is.
+    pub const fn pose(&self) -> Pose {
+        self.pose
+    }
+
+    /// Where the robot is, without its heading.
+    pub const fn cell(&self) -> Cell {
+        self.pose.cell
+    }
+
+    /// What is known about the walls.
+    pub const fn map(&self) -> &Map {
+        &self.map
+    }
+
+    /// Which run is on.
+    pub const fn run(&self) -> Run {
+        self.run
+    }
+
+    /// What the robot was told before the match.
+    pub const fn briefing(&self) -> &Briefing {
+        &self.briefing
+    }
+
+    /// How many steps may still be answered, this one included; where each run
+    /// has its own budget, those of this run.
+    pub const fn steps_left(&self) -> u32 {
+        self.steps_left
+    }
+
+    /// Whether the budget allows `exploration` more steps of run 1, then the
+    /// reset, then `speed` steps of run 2.
+    pub fn can_afford(&self, exploration: u32, speed: u32) -> bool {
+        let here = exploration.saturating_add(1);
+        match self.briefing.budget_scope {
+            BudgetScope::BothRuns => here.saturating_add(speed) <= self.steps_left,
+            BudgetScope::EachRun => here <= self.steps_left && speed <= self.briefing.budget,
+        }
+    }
+
+    fn may_be_open(&self, heading: Heading) -> bool {
+        let possible = self.map.passages(View::Optimistic);
+        possible.is_open(self.pose.cell, heading)
+    }
+
+    fn answer(&mut self, turn: Turn, travel: Heading, advance: i8) -> Action {
+        let cells = u32::from(advance.unsigned_abs());
+        self.pose = self
+            .pose
+            .moved(turn, travel, cells)
+            .expect("the perimeter is closed");
+        self.steps_left = self.steps_left.saturating_sub(1);
+        self.goal_seen |= self.in_goal();
+        Action::drive(turn, advance)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Area;
+
+    const NOTHING: Sensors = Sensors {
+        left: 0,
+        front: 0,
+        right: 0,
+    };
+
+    fn briefing() -> Briefing {
+        Briefing {
+            start: Cell::new(5, 5),
+            goal: Area::new(Cell::new(5, 7), 1, 1),
+            budget: 10,
+            ..Briefing::contest(12)
+        }
+    }
+
+    #[test]
+    fn an_unknown_rear_is_looked_at_first() {
+        let mut tracker = Tracker::new(&briefing());
+        tracker.observe(NOTHING);
+        assert_eq!(tracker.go(Heading::Down, 2), Action::drive(Turn::Right, 0));
+        tracker.observe(Sensors {
+            right: 1,
+            ..NOTHING
+        });
+        assert_eq!(tracker.go(Heading::Down, 2), Action::drive(Turn::Right, 1));
+        assert_eq!(tracker.cell(), Cell::new(5, 4));
+        // Behind it now is the cell it came from.
+        assert_eq!(
+            tracker.go(Heading::Up, 3),
+            Action::drive(Turn::Straight, -1)
+        );
+        assert_eq!(tracker.go(Heading::Up, 3), Action::drive(Turn::Straight, 0));
+    }
+
+    #[test]
+    fn a_reset_counts_only_after_the_goal() {
+        let mut tracker = Tracker::new(&briefing());
+        tracker.reset();
+        assert_eq!((tracker.run(), tracker.steps_left()), (Run::Exploration, 9));
+        tracker.observe(Sensors {
+            front: 3,
+            ..NOTHING
+        });
+        // Passing through does not count.
+        tracker.go(Heading::Up, 3);
+        assert!(!tracker.may_reset());
+        tracker.go(Heading::Down, 1);
+        assert!(tracker.in_goal() && tracker.may_reset());
+        tracker.reset();
+        assert_eq!((tracker.run(), tracker.steps_left()), (Run::Speed, 6));
+        assert_eq!(tracker.pose(), Pose::at_start(Cell::new(5, 5)));
+        assert!(!tracker.may_reset());
+    }
+
+    #[test]
+    fn what_the_budget_allows() {
+        let mut tracker = Tracker::new(&briefing());
+        assert!(tracker.can_afford(4, 5) && !tracker.can_afford(5, 5));
+        assert!(!tracker.can_afford(u32::MAX, u32::MAX));
+        tracker.briefing.budget_scope = BudgetScope::EachRun;
+        assert!(tracker.can_afford(9, 10) && !tracker.can_afford(10, 1));
+        assert!(!tracker.can_afford(1, 11));
+        tracker.goal_seen = true;
+        tracker.reset();
+        assert_eq!(tracker.steps_left(), 10);
+    }
+
+    #[test]
+    fn longer_moves_than_a_step_can_hold() {
+        let mut tracker = Tracker::new(&Briefing {
+            longest_move: u32::MAX,
+            ..Briefing::contest(64)
+        });
+        tracker.observe(Sensors {
+            front: 63,
+            ..NOTHING
+        });
+        assert_eq!(
+            tracker.go(Heading::Up, u32::MAX),
+            Action::drive(Turn::Straight, 63)
+        );
+    }
+}
