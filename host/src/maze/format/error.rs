@@ -49,7 +49,7 @@ pub enum ParseError {
     },
     /// The maze is smaller or larger than [`DIMENSIONS`].
     #[error(
-        "the maze is {cells} cells wide; mazes have {} to {} cells along each side",
+        "a width of {cells} is outside the {} to {} cells that mazes have",
         DIMENSIONS.start(), DIMENSIONS.end()
     )]
     Dimension {
@@ -97,7 +97,7 @@ pub enum ParseError {
         first: usize,
     },
     /// Cells have no line.
-    #[error("{} cells have no line: {}", .0.len(), Listed(.0))]
+    #[error("no line for {}", Listed(.0))]
     MissingCells(
         /// All of them, in the order of the cells. Messages name eight.
         Vec<Cell>,

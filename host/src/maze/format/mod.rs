@@ -164,10 +164,12 @@ fn recognize(first: &Line<'_>) -> Result<Format, ParseError> {
     }
     match first.text().chars().take(5).collect::<Vec<char>>()[..] {
         // A post, three times the same, a post.
-        [post, a, b, c, next] if post == next && a == b && b == c => Ok(match post {
-            'o' => Format::Competition,
-            _ => Format::Map,
-        }),
+        [post, a, b, c, next] if post == next && a == b && b == c && !words.is_empty() => {
+            Ok(match post {
+                'o' => Format::Competition,
+                _ => Format::Map,
+            })
+        }
         _ => Err(ParseError::Unrecognized {
             found: text::quoted(first.text()),
         }),

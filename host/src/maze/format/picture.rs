@@ -86,6 +86,15 @@ fn dimension(lines: &[Line<'_>]) -> Result<u8, ParseError> {
         .filter(|columns| DIMENSIONS.contains(columns))
         .ok_or(ParseError::Dimension { cells: columns })?;
     let rows = lines.len() / 2;
+    // A line of another length below the picture is a remark; one of the same
+    // length is a further row of it.
+    if let Some([last, line]) = lines.get(columns * 2..=columns * 2 + 1)
+        && (Row::new(line).characters.len() != Row::new(last).characters.len()
+            || lines.len().is_multiple_of(2))
+    {
+        let expected = format!("the end of the text after {columns} rows of cells");
+        return Err(line.unexpected(0, expected, quoted(line.text())));
+    }
     if lines.len().is_multiple_of(2) {
         return Err(ParseError::Ended {
             line: lines.len() + 1,

@@ -100,6 +100,7 @@ fn text_that_is_no_maze() {
     let unknown = [
         ("# My maze\n", "`# My maze`"),
         ("\n12\n", "nothing"),
+        ("      \n12\n", "`      `"),
         ("twelve", "`twelve`"),
         ("-3", "`-3`"),
         ("o--o", "`o--o`"),
@@ -213,7 +214,7 @@ fn bad_num_files() {
     let bad = [
         (
             "0 0 1 1 1 1",
-            "the maze is 1 cells wide; mazes have 2 to 64 cells along each side",
+            "a width of 1 is outside the 2 to 64 cells that mazes have",
         ),
         (
             "0 0 1 1 1",
@@ -248,10 +249,7 @@ fn bad_num_files() {
             "0 0 0 1 1 1\n1 1 1 1 0 0\n0 0 0 1 1 1",
             "line 3: second line for cell (0, 0), the first is line 1",
         ),
-        (
-            "0 0 0 1 1 1\n1 1 1 1 0 0",
-            "2 cells have no line: (0, 1), (1, 0)",
-        ),
+        ("0 0 0 1 1 1\n1 1 1 1 0 0", "no line for (0, 1), (1, 0)"),
         (
             "0 0 1 1 1 1\n0 1 1 1 0 1\n1 0 1 1 1 1\n1 1 1 0 1 1",
             "2 wrong edges: (0, 0) is closed up but (0, 1) is open down, \
@@ -372,6 +370,26 @@ fn bad_pictures() {
         let competition = MAP.replacen(good, change, 1).replace('+', "o");
         check(&competition, Err(message));
     }
+    let picture = MAP.replace('+', "o");
+    let after = "line 8, column 1: expected the end of the text after 3 rows of cells, found ";
+    check(
+        &format!("{picture}by A. Mouse"),
+        Err(&format!("{after}`by A. Mouse`")),
+    );
+    check(
+        &format!("{picture}by\nA. Mouse"),
+        Err(&format!("{after}`by`")),
+    );
+    check(
+        &format!("{picture}{picture}"),
+        Err(&format!("{after}`o---o---o---o`")),
+    );
+    let row = "o---o---o---o\n|           |\n";
+    let taller = format!("{row}{row}{picture}");
+    check(
+        &taller,
+        Err("the maze has 3 columns and 5 rows of cells; mazes are square"),
+    );
     let map = MAP.replacen("+   +---+", "+ - +---+", 1);
     check(
         &map,
@@ -383,9 +401,38 @@ fn bad_pictures() {
         check(
             &format!("o{}", "---o".repeat(cells)),
             Err(&format!(
-                "the maze is {cells} cells wide; mazes have 2 to 64 cells along each side"
+                "a width of {cells} is outside the 2 to 64 cells that mazes have"
             )),
         );
+    }
+}
+
+/// Puts an `x` in every place of a good file, one after the other: the error
+/// has to point there or, for a number, to its beginning.
+#[test]
+fn every_wrong_character_is_found_where_it_is() {
+    let maze = parse(MAP).expect("a maze").maze;
+    for format in [Format::Udacity, Format::Competition, Format::Num] {
+        let good = print(&maze, format).expect("the usual start and goal");
+        for (number, good_line) in good.lines().enumerate() {
+            for at in 0..good_line.len() {
+                let mut lines: Vec<String> = good.lines().map(str::to_owned).collect();
+                lines[number].replace_range(at..=at, "x");
+                let wrong = lines.join("\n");
+                let Err(ParseError::Unexpected { line, column, .. }) = parse_as(&wrong, format)
+                else {
+                    panic!("line and column are known: {wrong}");
+                };
+                let begin = match format {
+                    Format::Competition | Format::Map => at,
+                    Format::Udacity | Format::Num => {
+                        let before = good_line[..at].rfind([',', ' ']);
+                        before.map_or(0, |separator| separator + 1)
+                    }
+                };
+                assert_eq!((line, column), (number + 1, begin + 1), "{wrong}");
+            }
+        }
     }
 }
 
