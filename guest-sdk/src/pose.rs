@@ -2,7 +2,7 @@
 //!
 //! Dead reckoning only: it knows no walls beyond the sensors it is given.
 
-use crate::{Cell, Heading, Sensors, Turn};
+use crate::{Cell, Heading, Hop, Sensors, Turn};
 
 /// A cell and a heading.
 ///
@@ -48,6 +48,13 @@ impl Pose {
         };
         let heading = self.heading.turned(turn);
         self.moved(turn, heading, wish.min(open))
+    }
+
+    /// The pose after a hop: looking in its direction, unless that is behind, where
+    /// the robot drives backwards. `None` outside row and column 0.
+    pub fn hopped(self, hop: Hop) -> Option<Self> {
+        let turn = self.heading.turn_to(hop.heading).unwrap_or(Turn::Straight);
+        self.moved(turn, hop.heading, hop.cells)
     }
 
     /// The pose after a turn and then `cells` cells in direction `travel`, which

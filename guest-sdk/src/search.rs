@@ -5,8 +5,9 @@
 //! heading never matters). Layers grow as bits, a row at a time; a search
 //! allocates nothing.
 
-use crate::passages::{Bits, ROWS, row};
-use crate::{Cell, CellSet, Heading, Passages};
+use crate::geometry::DIMENSION_MAX;
+use crate::passages::{Bits, ROWS, bit, row};
+use crate::{Cell, CellSet, Heading, Passages, Pose, Turn};
 
 /// A drive in a straight line, in one step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -23,14 +24,15 @@ pub struct Hop {
 /// from it too.
 ///
 /// ```
-/// use wasmouse_sdk::{Cell, CellSet, Heading, Hop, Map, Search, View};
+/// use wasmouse_sdk::{Cell, CellSet, Heading, Hop, Map, Pose, Search, View};
 ///
 /// let map = Map::new(12);
 /// let passages = map.passages(View::Optimistic);
 /// let mut search = Search::new(12, 3);
 /// search.fill(passages, &CellSet::from(Cell::new(5, 0)));
 /// assert_eq!(search.steps(Cell::new(0, 0)), Some(2));
-/// let hops: Vec<Hop> = search.route(passages, Cell::new(0, 0)).collect();
+/// let start = Pose::at_start(Cell::new(0, 0));
+/// let hops: Vec<Hop> = search.route(passages, start).collect();
 /// let right = Heading::Right;
 /// assert_eq!(hops, [Hop { heading: right, cells: 3 }, Hop { heading: right, cells: 2 }]);
 /// ```
@@ -109,40 +111,57 @@ impl Search {
         })
     }
 
-    /// The longest hop nearer to a target in the first of these directions that
-    /// has one. The order decides between routes of equal length.
-    pub fn hop_toward(
-        &self,
-        passages: &Passages,
-        cell: Cell,
-        order: impl IntoIterator<Item = Heading>,
-    ) -> Option<Hop> {
-        let goal = self.steps(cell)?.checked_sub(1)?;
-        order.into_iter().find_map(|heading| {
-            let clear = passages.clear_cells(cell, heading, self.longest_move);
-            let longest = (1..=clear).rev().find(|&cells| {
-                let there = cell.toward(heading, cells);
-                there.and_then(|it| self.steps(it)) == Some(goal)
-            });
-            longest.map(|cells| Hop { heading, cells })
-        })
-    }
-
-    /// A shortest route from `cell` to a target, hop by hop; empty when there is
-    /// none or the cell is a target. Prefers to go on straight, then clockwise.
+    /// A shortest route to a target for a robot in this pose, hop by hop; empty
+    /// when there is none or the robot stands in a target.
+    ///
+    /// Between routes of equal length it prefers to drive straight on, then to the
+    /// right, to the left, backwards; then longer hops to shorter ones.
+    ///
+    /// `passages` are those of the last search, or fewer: a search stays true while
+    /// the route it gives is whole, see [`first_hop`](Self::first_hop).
     pub fn route<'a>(
         &'a self,
         passages: &'a Passages,
-        cell: Cell,
+        pose: Pose,
     ) -> impl Iterator<Item = Hop> + use<'a> {
-        let mut at = cell;
-        let mut straight = Heading::Up;
+        let mut at = pose;
         std::iter::from_fn(move || {
-            let order = (0..4).map(|quarters| Heading::ALL[(straight as usize + quarters) & 3]);
-            let hop = self.hop_toward(passages, at, order)?;
-            at = at.toward(hop.heading, hop.cells)?;
-            straight = hop.heading;
+            let hop = self.preferred_hop(passages, at)?;
+            at = at.hopped(hop)?;
             Some(hop)
+        })
+    }
+
+    /// The first hop of [`route`](Self::route), provided that the whole route still
+    /// leads to a target.
+    ///
+    /// Closing walls makes no route shorter. So as long as `passages` are those of
+    /// the last search with some more walls closed, a whole route is still a
+    /// shortest one, and there is no need to search again. `None` asks for a new
+    /// search (or says that there is no route).
+    pub fn first_hop(&self, passages: &Passages, pose: Pose) -> Option<Hop> {
+        let steps = self.steps(pose.cell)? as usize;
+        let mut route = self.route(passages, pose);
+        let first = route.next()?;
+        (route.count() + 1 == steps).then_some(first)
+    }
+
+    fn preferred_hop(&self, passages: &Passages, pose: Pose) -> Option<Hop> {
+        let goal = self.steps(pose.cell)?.checked_sub(1)?;
+        let ahead = pose.heading;
+        let order = [
+            ahead,
+            ahead.turned(Turn::Right),
+            ahead.turned(Turn::Left),
+            ahead.opposite(),
+        ];
+        order.into_iter().find_map(|heading| {
+            let clear = passages.clear_cells(pose.cell, heading, self.longest_move);
+            let longest = (1..=clear).rev().find(|&cells| {
+                let there = pose.cell.toward(heading, cells);
+                there.and_then(|it| self.steps(it)) == Some(goal)
+            });
+            longest.map(|cells| Hop { heading, cells })
         })
     }
 
@@ -151,93 +170,111 @@ impl Search {
             passages.dimension, self.dimension,
             "the passages are of another dimension"
         );
-        let rows = self.dimension as usize;
-        self.reached[..rows].fill(0);
-        self.next[..rows].copy_from_slice(&targets.rows[..rows]);
-        let stop = from.map(|cell| (row(cell.y), 1_u64 << (cell.x & 63)));
+        let columns = u64::MAX >> (DIMENSION_MAX - self.dimension);
+        for y in 0..self.dimension {
+            self.reached[row(y)] = 0;
+            self.next[row(y)] = targets.rows[row(y)] & columns;
+        }
+        // Most rows of most layers are empty, so both halves of a layer only visit
+        // the rows, as bits, that the other has written.
+        let mut touched = columns;
         let mut steps = 0;
-        while self.settle(steps) {
-            if stop.is_some_and(|(row, bit)| self.reached[row] & bit != 0) {
-                break;
+        loop {
+            let frontier_rows = self.settle(touched, steps);
+            if frontier_rows == 0 || from.is_some_and(|it| self.steps(it).is_some()) {
+                return;
             }
-            self.spread(passages);
+            // The usual longest move is a constant, so that its loops are unrolled.
+            touched = match self.longest_move {
+                3 => self.spread(passages, frontier_rows, 3),
+                longest => self.spread(passages, frontier_rows, longest),
+            };
             steps += 1;
         }
     }
 
     /// Makes the new cells of `next` the frontier, `steps` away, and empties
-    /// `next`. Says whether there were any.
-    fn settle(&mut self, steps: u16) -> bool {
-        let mut any = 0;
-        let rows = self.dimension as usize;
-        let columns = u64::MAX >> (ROWS - rows);
-        let distances = self.steps.chunks_exact_mut(ROWS);
-        let boards = self.reached[..rows]
-            .iter_mut()
-            .zip(&mut self.next[..rows])
-            .zip(&mut self.frontier[..rows]);
-        for (((reached, next), frontier), distances) in boards.zip(distances) {
-            let new = *next & !*reached & columns;
-            *next = 0;
-            *frontier = new;
-            *reached |= new;
-            any |= new;
-            for x in Bits(new) {
-                distances[x as usize & (ROWS - 1)] = steps;
-            }
-        }
-        any != 0
-    }
-
-    /// Adds to `next` every cell one step away from the frontier.
-    fn spread(&mut self, passages: &Passages) {
-        for y in 0..self.dimension {
-            let cells = self.frontier[row(y)];
-            if cells == 0 {
+    /// `next`. Returns the rows of the frontier.
+    fn settle(&mut self, touched: u64, steps: u16) -> u64 {
+        let mut rows = 0;
+        for y in Bits(touched) {
+            let new = self.next[row(y)] & !self.reached[row(y)];
+            self.next[row(y)] = 0;
+            if new == 0 {
                 continue;
             }
-            self.spread_sideways(passages.right[row(y)], cells, y);
-            self.spread_up(&passages.up, cells, y);
-            self.spread_down(&passages.up, cells, y);
-        }
-    }
-
-    #[inline]
-    fn spread_sideways(&mut self, open: u64, cells: u64, y: u32) {
-        let (mut right, mut left, mut both) = (cells, cells, 0);
-        for _ in 0..self.longest_move {
-            right = (right & open) << 1;
-            left = left >> 1 & open;
-            if right | left == 0 {
-                break;
+            rows |= bit(y);
+            self.frontier[row(y)] = new;
+            self.reached[row(y)] |= new;
+            let first = y as usize * ROWS;
+            let distances = &mut self.steps[first..first + ROWS];
+            for x in Bits(new) {
+                distances[row(x)] = steps;
             }
-            both |= right | left;
         }
-        self.next[row(y)] |= both;
+        rows
+    }
+
+    /// Adds to `next` every cell one step away from the frontier. Returns the rows
+    /// it has written.
+    #[inline]
+    fn spread(&mut self, passages: &Passages, frontier_rows: u64, longest: u32) -> u64 {
+        let mut touched = frontier_rows;
+        for y in Bits(frontier_rows) {
+            let cells = self.frontier[row(y)];
+            self.next[row(y)] |= sideways(passages.right[row(y)], cells, longest);
+            touched |= self.spread_up(&passages.up, cells, y, longest);
+            touched |= self.spread_down(&passages.up, cells, y, longest);
+        }
+        touched
     }
 
     #[inline]
-    fn spread_up(&mut self, open: &[u64; ROWS], mut cells: u64, y: u32) {
-        // The perimeter is closed, so `cells` is empty before the rows run out.
-        for above in y..y.saturating_add(self.longest_move) {
-            cells &= open[row(above)];
+    fn spread_up(&mut self, open: &[u64; ROWS], mut cells: u64, y: u32, longest: u32) -> u64 {
+        let mut touched = 0;
+        for distance in 0..longest {
+            let below = y.wrapping_add(distance);
+            // The perimeter is closed, so this ends before the rows run out.
+            cells &= open[row(below)];
             if cells == 0 {
                 break;
             }
-            self.next[row(above + 1)] |= cells;
+            self.next[row(below + 1)] |= cells;
+            touched |= bit(below + 1);
         }
+        touched
     }
 
     #[inline]
-    fn spread_down(&mut self, open: &[u64; ROWS], mut cells: u64, y: u32) {
-        for below in (0..y).rev().take(self.longest_move as usize) {
+    fn spread_down(&mut self, open: &[u64; ROWS], mut cells: u64, y: u32, longest: u32) -> u64 {
+        let mut touched = 0;
+        for distance in 1..=longest {
+            // Below row 0 this wraps around to a row of the perimeter or beyond the
+            // maze, whose walls are closed.
+            let below = y.wrapping_sub(distance);
             cells &= open[row(below)];
             if cells == 0 {
                 break;
             }
             self.next[row(below)] |= cells;
+            touched |= bit(below);
         }
+        touched
     }
+}
+
+#[inline]
+fn sideways(open: u64, cells: u64, longest: u32) -> u64 {
+    let (mut right, mut left, mut both) = (cells, cells, 0);
+    for _ in 0..longest {
+        right = (right & open) << 1;
+        left = (left >> 1) & open;
+        if right | left == 0 {
+            break;
+        }
+        both |= right | left;
+    }
+    both
 }
 
 #[inline]
@@ -309,10 +346,10 @@ mod tests {
 
     fn check_route(search: &Search, passages: &Passages, targets: &CellSet, from: Cell) {
         let Some(steps) = search.steps(from) else {
-            assert_eq!(search.route(passages, from).count(), 0);
+            assert_eq!(search.route(passages, Pose::at_start(from)).count(), 0);
             return;
         };
-        let hops: Vec<Hop> = search.route(passages, from).collect();
+        let hops: Vec<Hop> = search.route(passages, Pose::at_start(from)).collect();
         assert_eq!(hops.len() as u32, steps);
         assert_eq!(steps > 0, search.hops(passages, from).next().is_some());
         let end = hops.iter().fold(from, |at, hop| {
@@ -335,6 +372,36 @@ mod tests {
             assert_eq!(full.steps(Cell::new(0, 0)), early.steps(Cell::new(0, 0)));
             check_route(&early, &passages, &targets, Cell::new(0, 0));
         }
+    }
+
+    /// While `first_hop` answers, following it is as short as searching again.
+    #[test]
+    fn an_old_search_stays_true_while_its_route_is_whole() {
+        let mut random = Random::new(9);
+        let (mut whole, mut broken) = (0, 0);
+        for _ in 0..400 {
+            let mut passages = random_passages(16, &mut random, 20);
+            let targets = CellSet::from(Area::center(16));
+            let pose = Pose::at_start(Cell::new(0, 0));
+            let mut old = Search::new(16, 3);
+            old.fill_until(&passages, &targets, pose.cell);
+            for _ in 0..20 {
+                let cell = Cell::new(random.below(16), random.below(16));
+                passages.close(cell, Heading::ALL[random.below(4) as usize]);
+            }
+            let mut new = old.clone();
+            new.fill_until(&passages, &targets, pose.cell);
+            match old.first_hop(&passages, pose) {
+                Some(hop) => {
+                    let after = pose.hopped(hop).expect("inside");
+                    assert_eq!(old.steps(pose.cell), new.steps(pose.cell));
+                    assert_eq!(new.steps(after.cell), new.steps(pose.cell).map(|it| it - 1));
+                    whole += 1;
+                }
+                None => broken += 1,
+            }
+        }
+        assert!(whole > 50 && broken > 50, "{whole} whole, {broken} broken");
     }
 
     #[test]

@@ -23,14 +23,17 @@
 //! Settings: 0 resets in the goal, 1 explores until the best path is certain.
 
 use wasmouse_sdk::{
-    Action, Briefing, Cell, CellSet, Heading, Robot, Run, Search, Sensors, Tracker, Turn, View,
-    export_robot,
+    Action, Briefing, Cell, CellSet, Heading, Hop, Pose, Robot, Run, Search, Sensors, Tracker,
+    Turn, View, export_robot,
 };
 
 /// The robot.
 pub struct Flood {
     tracker: Tracker,
-    search: Search,
+    /// The search that the robot drives by.
+    to_goal: Search,
+    /// For all other questions.
+    questions: Search,
     goal: CellSet,
     explores_on: bool,
 }
@@ -46,7 +49,8 @@ impl Robot for Flood {
         };
         Self {
             tracker: Tracker::new(briefing),
-            search: Search::new(briefing.dimension, briefing.longest_move),
+            to_goal: Search::new(briefing.dimension, briefing.longest_move),
+            questions: Search::new(briefing.dimension, briefing.longest_move),
             goal: CellSet::from(briefing.goal),
             explores_on,
         }
@@ -74,24 +78,19 @@ struct Question {
 }
 
 impl Flood {
+    /// The first step of a shortest path to the goal. Searches only when the path
+    /// of the last search is no longer whole: walls that close make nothing shorter.
     fn drive_to_goal(&mut self, view: View) -> Action {
+        let pose = self.tracker.pose();
         let passages = self.tracker.map().passages(view);
-        self.search
-            .fill_until(passages, &self.goal, self.tracker.cell());
-        self.drive(view)
+        let hop = self.to_goal.first_hop(passages, pose).or_else(|| {
+            self.to_goal.fill_until(passages, &self.goal, pose.cell);
+            self.to_goal.route(passages, pose).next()
+        });
+        self.drive(hop)
     }
 
-    /// The first step of the way that was searched last.
-    fn drive(&mut self, view: View) -> Action {
-        let passages = self.tracker.map().passages(view);
-        let ahead = self.tracker.pose().heading;
-        let order = [
-            ahead,
-            ahead.turned(Turn::Right),
-            ahead.turned(Turn::Left),
-            ahead.opposite(),
-        ];
-        let hop = self.search.hop_toward(passages, self.tracker.cell(), order);
+    fn drive(&mut self, hop: Option<Hop>) -> Action {
         match hop {
             Some(hop) => self.tracker.go(hop.heading, hop.cells),
             None => self.tracker.turn(Turn::Right),
@@ -107,9 +106,9 @@ impl Flood {
         let start = self.tracker.briefing().start;
         let map = self.tracker.map();
         let passages = map.passages(View::Optimistic);
-        self.search.fill_until(passages, &self.goal, start);
+        self.questions.fill_until(passages, &self.goal, start);
         let mut cell = start;
-        for hop in self.search.route(passages, start) {
+        for hop in self.questions.route(passages, Pose::at_start(start)) {
             let known = map.passages(View::Pessimistic);
             let clear = known.clear_cells(cell, hop.heading, hop.cells);
             cell = cell.toward(hop.heading, clear)?;
@@ -125,21 +124,23 @@ impl Flood {
     fn has_time(&mut self) -> bool {
         let start = self.tracker.briefing().start;
         let passages = self.tracker.map().passages(View::Pessimistic);
-        self.search.fill_until(passages, &self.goal, start);
-        self.search
+        self.questions.fill_until(passages, &self.goal, start);
+        self.questions
             .steps(start)
             .is_some_and(|race| self.tracker.can_afford(1, race))
     }
 
     /// Drives towards the cell of the question; there, looks at the wall.
     fn look_into(&mut self, Question { cell, side }: Question) -> Action {
-        let here = self.tracker.cell();
-        if here == cell {
+        let pose = self.tracker.pose();
+        if pose.cell == cell {
             return self.tracker.go(side, 1);
         }
         let passages = self.tracker.map().passages(View::Pessimistic);
-        self.search.fill_until(passages, &CellSet::from(cell), here);
-        self.drive(View::Pessimistic)
+        let target = CellSet::from(cell);
+        self.questions.fill_until(passages, &target, pose.cell);
+        let hop = self.questions.route(passages, pose).next();
+        self.drive(hop)
     }
 }
 
