@@ -420,7 +420,8 @@ mod tests {
             "/qq/\u{1b}qq",
             Legality::Contest,
             "error: unknown maze `/qq/\\u{1b}qq`: no bundled maze, file or folder has this name\
-             \n\nhint: bundled mazes are test_maze_01",
+             \n\nhint: bundled mazes are test_maze_01, braid-12, division-14, tree-16, division-18, \
+             braid-20",
         );
         check_error(
             "gen:tree:13:1",

@@ -12,10 +12,33 @@ pub struct BundledMaze {
     pub text: &'static str,
 }
 
-const MAZES: &[BundledMaze] = &[BundledMaze {
-    name: "test_maze_01",
-    text: include_str!("../../mazes/test_maze_01.txt"),
-}];
+/// The official maze, then generated ones of every size.
+const MAZES: &[BundledMaze] = &[
+    BundledMaze {
+        name: "test_maze_01",
+        text: include_str!("../../mazes/test_maze_01.txt"),
+    },
+    BundledMaze {
+        name: "braid-12",
+        text: include_str!("../../mazes/braid-12.txt"),
+    },
+    BundledMaze {
+        name: "division-14",
+        text: include_str!("../../mazes/division-14.txt"),
+    },
+    BundledMaze {
+        name: "tree-16",
+        text: include_str!("../../mazes/tree-16.txt"),
+    },
+    BundledMaze {
+        name: "division-18",
+        text: include_str!("../../mazes/division-18.txt"),
+    },
+    BundledMaze {
+        name: "braid-20",
+        text: include_str!("../../mazes/braid-20.txt"),
+    },
+];
 
 /// All bundled mazes, in the order in which they are listed and run. Each is a
 /// legal contest maze.
@@ -33,7 +56,9 @@ pub const fn bundled() -> &'static [BundledMaze] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{format, violations};
+    use super::super::format::{self, Format};
+    use super::super::generate::GenSpec;
+    use super::super::violations;
     use super::*;
 
     #[test]
@@ -43,6 +68,28 @@ mod tests {
             assert_eq!(violations(&parsed.maze), [], "{}", bundled_maze.name);
             let before = &bundled()[..place];
             assert!(before.iter().all(|maze| maze.name != bundled_maze.name));
+        }
+    }
+
+    /// The generated ones are no private copies: anyone can make them again.
+    #[test]
+    fn generated_mazes_are_what_their_specifications_say() {
+        let specs = [
+            "gen:braid:12:11",
+            "gen:division:14:7",
+            "gen:tree:16:1",
+            "gen:division:18:4",
+            "gen:braid:20:2",
+        ];
+        let (_official, generated) = bundled().split_first().expect("bundled mazes");
+        assert_eq!(generated.len(), specs.len());
+        for (bundled_maze, spec) in generated.iter().zip(specs) {
+            let spec: GenSpec = spec.parse().expect("a specification");
+            let (name, maze) = spec.expand().next().expect("one maze");
+            let text = format::print(&maze, Format::Udacity).expect("a contest maze");
+            assert_eq!(bundled_maze.text, text, "{} is {name}", bundled_maze.name);
+            let kind_and_size = format!("{}-{}", spec.kind().name(), maze.dimension());
+            assert_eq!(bundled_maze.name, kind_and_size);
         }
     }
 }

@@ -7,23 +7,27 @@
 //! reports have walls on 82 % of the places that a maze without loops would
 //! use, and 9 to 11 dead ends. This generator aims at that.
 //!
-//! First a tree grows from the start by *runs*: straights or staircases of 2 to
-//! 7 cells, each going on from the last or branching off from a random earlier
-//! cell. Then dead ends are joined to a neighbour, straight ahead or to another
-//! dead end where possible. Growing reaches every cell and joining only removes
-//! walls, so all cells are connected.
+//! First a tree grows from the start by *runs*, straights or staircases, each
+//! going on from the last or branching off from a random earlier cell. Then dead
+//! ends are joined to a neighbour, straight ahead or to another dead end where
+//! possible. At last the entrance of the goal room moves to its far side. The
+//! tree reaches every cell outside the goal room and joining only removes walls,
+//! so all cells are connected wherever the entrance is.
 
 use std::ops::Range;
 
-use super::super::{Area, Cell, Heading, Turn, Walls};
+use super::super::{Area, Cell, Heading, Maze, Metric, Turn, Walls, distances_from};
 use super::draft::{Draft, Edge};
 use super::draws::Draws;
 
-/// How long a run is, in cells.
-const RUN: Range<u32> = 2..8;
+/// How long a straight is, in cells. Two in a row may make a longer one.
+const STRAIGHT: Range<u32> = 2..6;
+
+/// How long a staircase is, in cells.
+const STAIRCASE: Range<u32> = 4..10;
 
 /// How often a run is a staircase and not a straight, in percent.
-const STAIRCASES: u32 = 40;
+const STAIRCASES: u32 = 60;
 
 /// How often a new run branches off from an earlier cell although the last run
 /// could go on, in percent.
@@ -37,6 +41,7 @@ pub(super) fn walls(dimension: u8, draws: &mut Draws) -> Walls {
     let mut draft = Draft::new(Walls::closed(dimension), draws);
     grow(&mut draft, draws);
     join_dead_ends(&mut draft, draws);
+    hide_entrance(&mut draft);
     draft.into_walls()
 }
 
@@ -57,6 +62,14 @@ impl Shape {
         } else {
             Self::Staircase(Turn::Right)
         }
+    }
+
+    fn length(self, draws: &mut Draws) -> u32 {
+        let range = match self {
+            Self::Straight => STRAIGHT,
+            Self::Staircase(_) => STAIRCASE,
+        };
+        range.start + draws.below(range.end - range.start)
     }
 
     /// The next heading of the run and the shape after it.
@@ -95,8 +108,7 @@ fn run(draft: &mut Draft, tree: &mut Tree, tip: Cell, draws: &mut Draws) -> Cell
     };
     let mut tip = tip;
     let mut shape = Shape::draw(draws);
-    let length = RUN.start + draws.below(RUN.end - RUN.start);
-    for _ in 0..length {
+    for _ in 0..shape.length(draws) {
         let ways = tree.ways_on(draft, tip);
         let Some(&(_, edge)) = ways.iter().find(|&&(way, _)| way == heading) else {
             break;
@@ -183,6 +195,25 @@ fn join_dead_ends(draft: &mut Draft, draws: &mut Draws) {
         let (_, edge) = way.expect("the best of some ways is one of them");
         draft.set(edge, true);
     }
+}
+
+/// Moves the entrance to where the way to it is longest, so that robots get to
+/// see some of the maze. Of equally long ways the first entrance is taken.
+fn hide_entrance(draft: &mut Draft) {
+    let maze = Maze::contest(draft.walls().clone()).expect("room for start and goal");
+    let distances = distances_from(&maze, maze.start(), Metric::Cells);
+    let goal = maze.goal();
+    let distance = |edge: &Edge| {
+        let outside = edge.cells().into_iter().find(|&cell| !goal.contains(cell));
+        outside.and_then(|cell| distances.get(cell))
+    };
+    let mut farthest = draft.entrances()[0];
+    for edge in draft.entrances() {
+        if distance(&edge) > distance(&farthest) {
+            farthest = edge;
+        }
+    }
+    draft.move_entrance(farthest);
 }
 
 /// The open side of a dead end.

@@ -48,11 +48,14 @@ impl Edge {
 ///
 /// Final from the beginning: the start is open at the top only, the goal room
 /// has no inner walls and exactly one entrance, at a random one of its eight
-/// outer edges. An edge that is not final can be set once; that makes it final.
+/// outer edges (which [`Draft::move_entrance`] may change). An edge that is not
+/// final can be set once; that makes it final.
 pub(super) struct Draft {
     walls: Walls,
     /// By cell index: bits of [`Heading::Up`] and [`Heading::Right`].
     finals: Vec<u8>,
+    /// The eight edges around the goal room, of which one is open.
+    border: Vec<Edge>,
 }
 
 impl Draft {
@@ -61,6 +64,7 @@ impl Draft {
         let dimension = blank.dimension();
         let mut draft = Self {
             finals: vec![0; usize::from(dimension).pow(2)],
+            border: Vec::new(),
             walls: blank,
         };
         let start = Cell::new(0, 0);
@@ -71,7 +75,6 @@ impl Draft {
     }
 
     fn set_goal(&mut self, goal: Area, draws: &mut Draws) {
-        let mut border = Vec::new();
         for cell in goal.cells() {
             for heading in Heading::ALL {
                 let edge = Edge::new(cell, heading);
@@ -81,13 +84,33 @@ impl Draft {
                         self.set(edge, true);
                     }
                 } else {
-                    border.push(edge);
+                    self.border.push(edge);
                 }
             }
         }
-        let entrance = draws.pick(&border);
-        for edge in border {
+        let entrance = draws.pick(&self.border);
+        for edge in self.border.clone() {
             self.set(edge, Some(edge) == entrance);
+        }
+    }
+
+    /// Where the entrance of the goal room could be, by goal cell.
+    pub(super) fn entrances(&self) -> Vec<Edge> {
+        self.border.clone()
+    }
+
+    /// Opens the goal room there and nowhere else, although its edges are final.
+    ///
+    /// # Panics
+    ///
+    /// When the edge is none of [`Draft::entrances`].
+    pub(super) fn move_entrance(&mut self, entrance: Edge) {
+        assert!(
+            self.border.contains(&entrance),
+            "{entrance:?} is no entrance"
+        );
+        for &edge in &self.border {
+            self.walls.set(edge.cell, edge.heading, edge == entrance);
         }
     }
 

@@ -80,7 +80,7 @@ fn the_same_specification_gives_the_same_bytes_for_ever() {
         [
             "gen:division:12:1 b1640fed633d5308",
             "gen:tree:16:42 aca3412247ffbd8b",
-            "gen:braid:20:18446744073709551615 025712a30928d11c",
+            "gen:braid:20:18446744073709551615 6f446a69cb83a2e8",
         ]
     );
 }
