@@ -7,3 +7,5 @@
 mod formats;
 /// Where the shared material is.
 mod shared;
+/// Optimal paths and the floor of the official mazes.
+mod solver;

@@ -5,3 +5,5 @@
 //! that the domain types can change without changing what programs read.
 
 pub mod maze_check;
+pub mod maze_solve;
+pub mod picture;

@@ -2,6 +2,9 @@
 
 mod check;
 mod convert;
+mod generate;
+mod show;
+mod solve;
 
 use super::exit::Exit;
 use super::failure::Failure;
@@ -17,6 +20,9 @@ pub struct Args {
 enum Command {
     Check(check::Args),
     Convert(convert::Args),
+    Generate(generate::Args),
+    Show(show::Args),
+    Solve(solve::Args),
 }
 
 /// Runs the chosen command.
@@ -24,5 +30,8 @@ pub fn run(args: Args) -> Result<Exit, Failure> {
     match args.command {
         Command::Check(args) => check::run(args),
         Command::Convert(args) => convert::run(args),
+        Command::Generate(args) => generate::run(args),
+        Command::Show(args) => show::run(args),
+        Command::Solve(args) => solve::run(args),
     }
 }
