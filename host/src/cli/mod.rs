@@ -30,7 +30,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Look at mazes: check them, convert them.
+    /// Look at mazes: check, convert, draw, solve and generate them.
     Maze(maze::Args),
     Build(build::Args),
 }

@@ -2,8 +2,8 @@
 //!
 //! One file without scripts, fonts or links to anything. Colours are set in a
 //! style sheet that follows the reader's preference for light or dark. A title
-//! and a description stand for the picture where it cannot be seen, and a cell
-//! that is painted carries the name of its colour as a tooltip.
+//! and a description stand for the picture where it cannot be seen, and start,
+//! goal and painted cells carry their names as tooltips.
 
 use std::fmt::Write as _;
 
@@ -20,7 +20,8 @@ const MARGIN: u32 = 6;
 const HEAT_LEVELS: u32 = 100;
 
 const STYLE: &str = "\
-.ground{fill:#fff}.goal{fill:#30a46c;fill-opacity:.22}.heat{fill:#e5484d}
+.ground{fill:#fff}.start{fill:#3e7bfa;fill-opacity:.3}.goal{fill:#30a46c;fill-opacity:.3}
+.heat{fill:#e5484d}
 .wall{fill:none;stroke:#1b1c20;stroke-width:2;stroke-linecap:round}
 .unknown{fill:none;stroke:#8b8d98;stroke-width:2;stroke-linecap:round;stroke-dasharray:0 5}
 .dot{fill:#8b8d98}
@@ -51,13 +52,15 @@ impl Picture {
 
     fn head(&self, svg: &mut String) {
         let side = u32::from(self.dimension) * CELL + 2 * MARGIN;
+        // How large it is shown where nobody says otherwise.
+        let shown = 2 * side;
         let title = escaped(&self.title);
         let description = escaped(&self.description());
         write(
             svg,
             format_args!(
                 "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {side} {side}\" \
-                 width=\"{side}\" height=\"{side}\" role=\"img\">\n\
+                 width=\"{shown}\" height=\"{shown}\" role=\"img\">\n\
                  <title>{title}</title>\n<desc>{description}</desc>\n\
                  <style>{STYLE}</style>\n\
                  <rect class=\"ground\" width=\"{side}\" height=\"{side}\"/>\n"
@@ -65,13 +68,16 @@ impl Picture {
         );
     }
 
-    /// What lies on the floor: the goal, heat and paint.
+    /// What lies on the floor: start, goal, heat and paint.
     fn grounds(&self, svg: &mut String) {
         for cell in super::cells(self.dimension) {
             let Mark { paint, .. } = self.mark(cell);
             let heat = self.heat_level(cell, HEAT_LEVELS);
+            if cell == self.start {
+                square(svg, cell, self, format_args!("class=\"start\""), "start");
+            }
             if self.goal.contains(cell) {
-                square(svg, cell, self, format_args!("class=\"goal\""), "");
+                square(svg, cell, self, format_args!("class=\"goal\""), "goal");
             }
             if let Some(level @ 1..) = heat {
                 // Never so strong that a number on it would be hard to read.
@@ -161,9 +167,7 @@ impl Picture {
                     self.text(cell, number, 5, svg);
                 }
                 (Some(text), None) | (None, Some(text)) => self.text(cell, text, 0, svg),
-                (None, None) if cell == self.start && self.stops.is_empty() => {
-                    self.text(cell, "S", 0, svg);
-                }
+                (None, None) if cell == self.start => self.text(cell, "S", 0, svg),
                 (None, None) => {}
             }
         }
