@@ -1,1 +1,287 @@
-//! dfs
+//! The depth-first search with backtracking of the sketch-city report.
+//!
+//! What the report says: visit every cell that can be reached. In each cell, go on
+//! to a neighbour not visited yet; in a dead end, drive back the way it came to the
+//! latest intersection with something left; signal when everything is explored. Its
+//! code pushes the neighbours in the order north, west, south, east and takes the
+//! last one first. It paints visited cells green and, in the end, its own cell blue;
+//! so does this robot, and its signal is a journal entry.
+//!
+//! What it leaves open, and what was chosen here:
+//!
+//! - *Steps*: the report counts none. New cells are entered one at a time, because
+//!   each has to be looked at; the way back is driven in hops of up to the longest
+//!   move, backwards where that saves a turn, and ends at the first cell with
+//!   something left.
+//! - *What is behind*: the report's simulation sees all four neighbours. Here a wall
+//!   behind the robot may be unknown; it turns to look at it before it leaves the
+//!   cell, unless the cell beyond has been visited anyway.
+//! - *The contest*: the report has no goal and no second run. When everything is
+//!   explored, this robot resets if it has stood in the goal, and runs the fewest
+//!   steps through walls known to be open. It also resets when the budget has just
+//!   enough steps left for that.
+//!
+//! A cell costs at most two steps, so a maze of 20 x 20 is explored in at most 800
+//! of the 1000 steps, apart from looks behind.
+//!
+//! Settings: 0 explores everything, 1 resets as soon as it stands in the goal.
+
+use wasmouse_sdk::journal::{self, Color};
+use wasmouse_sdk::{
+    Action, Briefing, Cell, CellSet, Heading, Robot, Run, Search, Sensors, Tracker, Turn, View,
+    Wall, export_robot,
+};
+
+/// The report's order: pushed last, taken first.
+const ORDER: [Heading; 4] = [Heading::Right, Heading::Down, Heading::Left, Heading::Up];
+
+/// The robot.
+pub struct DepthFirst {
+    tracker: Tracker,
+    visited: CellSet,
+    /// The way from the start to here, cell by cell.
+    trail: Vec<Heading>,
+    /// Distances to the goal through walls known to be open.
+    search: Search,
+    goal: CellSet,
+    explores_everything: bool,
+    signalled: bool,
+}
+
+export_robot!(DepthFirst);
+
+impl Robot for DepthFirst {
+    fn start(briefing: &Briefing) -> Self {
+        let explores_everything = match briefing.setting {
+            0 => true,
+            1 => false,
+            _ => panic!("depth-first search has the settings 0 and 1"),
+        };
+        Self {
+            tracker: Tracker::new(briefing),
+            visited: CellSet::new(),
+            trail: Vec::new(),
+            search: Search::new(briefing.dimension, briefing.longest_move),
+            goal: CellSet::from(briefing.goal),
+            explores_everything,
+            signalled: false,
+        }
+    }
+
+    fn next_move(&mut self, sensors: Sensors) -> Action {
+        self.tracker.observe(sensors);
+        if self.tracker.run() == Run::Speed {
+            return self.race();
+        }
+        self.visit();
+        if self.tracker.may_reset() && !self.goes_on() {
+            return self.tracker.reset();
+        }
+        self.explore()
+    }
+}
+
+impl DepthFirst {
+    fn visit(&mut self) {
+        let cell = self.tracker.cell();
+        if !self.visited.contains(cell) {
+            self.visited.insert(cell);
+            journal::paint(cell, Color::Green);
+        }
+    }
+
+    /// On to a new cell, or to look at a wall, or back.
+    fn explore(&mut self) -> Action {
+        let here = self.tracker.cell();
+        if let Some(side) = self.unvisited(here, Wall::Open) {
+            self.trail.push(side);
+            return self.tracker.go(side, 1);
+        }
+        if let Some(side) = self.unvisited(here, Wall::Unknown) {
+            // Behind the robot, so this turns on the spot.
+            return self.tracker.go(side, 1);
+        }
+        if self.trail.is_empty() {
+            return self.finish();
+        }
+        self.go_back()
+    }
+
+    /// The first side of `cell` in that state with an unvisited cell beyond.
+    fn unvisited(&self, cell: Cell, state: Wall) -> Option<Heading> {
+        let map = self.tracker.map();
+        ORDER.into_iter().find(|&side| {
+            map.wall(cell, side) == state
+                && map
+                    .neighbor(cell, side)
+                    .is_some_and(|beyond| !self.visited.contains(beyond))
+        })
+    }
+
+    /// One hop back along the trail.
+    fn go_back(&mut self) -> Action {
+        let last = *self.trail.last().expect("checked by the caller");
+        let back = last.opposite();
+        let mut cell = self.tracker.cell();
+        let mut cells = 0;
+        while cells < self.tracker.briefing().longest_move && self.trail.last() == Some(&last) {
+            self.trail.pop();
+            cells += 1;
+            cell = cell.toward(back, 1).expect("the trail is inside the maze");
+            let something_left =
+                [Wall::Open, Wall::Unknown].map(|state| self.unvisited(cell, state));
+            if something_left != [None, None] {
+                break;
+            }
+        }
+        self.tracker.go(back, cells)
+    }
+
+    /// Everything is explored.
+    fn finish(&mut self) -> Action {
+        if !self.signalled {
+            self.signalled = true;
+            journal::info("everything explored");
+            journal::paint(self.tracker.cell(), Color::Blue);
+        }
+        if self.tracker.may_reset() {
+            self.tracker.reset()
+        } else {
+            // The goal cannot be reached; there is nothing left to do.
+            self.tracker.turn(Turn::Right)
+        }
+    }
+
+    /// Whether one more step of exploration is wanted and affordable.
+    fn goes_on(&mut self) -> bool {
+        if !self.explores_everything {
+            return false;
+        }
+        let cells = self.tracker.briefing().dimension.pow(2);
+        if self.tracker.can_afford(1, cells) {
+            // No race is longer than that, so there is no need to search.
+            return true;
+        }
+        let start = self.tracker.briefing().start;
+        let passages = self.tracker.map().passages(View::Pessimistic);
+        self.search.fill_until(passages, &self.goal, start);
+        self.search
+            .steps(start)
+            .is_some_and(|race| self.tracker.can_afford(1, race))
+    }
+
+    /// The fewest steps through walls known to be open.
+    fn race(&mut self) -> Action {
+        let pose = self.tracker.pose();
+        let passages = self.tracker.map().passages(View::Pessimistic);
+        let hop = self.search.first_hop(passages, pose).or_else(|| {
+            self.search.fill_until(passages, &self.goal, pose.cell);
+            self.search.route(passages, pose).next()
+        });
+        match hop {
+            Some(hop) => self.tracker.go(hop.heading, hop.cells),
+            None => self.tracker.turn(Turn::Right),
+        }
+    }
+}
+
+#[cfg(test)]
+#[path = "../../contest_mazes.rs"]
+mod contest_mazes;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wasmouse_sdk::Area;
+    use wasmouse_sdk::testing::{self, MAZE_01, Note, PlayOptions, Played};
+
+    fn play(maze: &str, options: &PlayOptions) -> Played {
+        let played = testing::play::<DepthFirst>(maze, options);
+        assert_eq!(played.bumps, 0);
+        played
+    }
+
+    fn signals(played: &Played) -> usize {
+        let log = |note: &Note| matches!(note, Note::Log(_, text) if text == "everything explored");
+        played.journal.iter().filter(|it| log(&it.note)).count()
+    }
+
+    #[test]
+    fn contest_mazes() {
+        let expected = [
+            (1, 0, "finished 244 + 17: 25.133"),
+            (2, 0, "finished 334 + 22: 33.133"),
+            (3, 0, "finished 420 + 25: 39.000"),
+            (1, 1, "finished 52 + 17: 18.733"),
+            (2, 1, "finished 94 + 27: 30.133"),
+            (3, 1, "finished 217 + 27: 34.233"),
+        ];
+        let mazes = contest_mazes::contest_mazes();
+        for (number, setting, expected) in expected {
+            let options = PlayOptions {
+                setting,
+                ..PlayOptions::default()
+            };
+            if let Some((_, maze)) = mazes.iter().find(|it| it.0 == number) {
+                let played = play(maze, &options);
+                assert_eq!(signals(&played), usize::from(setting == 0));
+                assert_eq!(played.summary(), expected, "maze {number}");
+            }
+        }
+    }
+
+    #[test]
+    fn visits_every_cell_of_maze_01() {
+        let played = play(MAZE_01, &PlayOptions::default());
+        let painted: CellSet = played
+            .journal
+            .iter()
+            .filter_map(|it| match it.note {
+                Note::Paint(cell, Color::Green) => Some(cell),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(painted.iter().count(), 144);
+    }
+
+    #[test]
+    fn stops_exploring_in_time() {
+        for budget in 100..300 {
+            let options = PlayOptions {
+                budget,
+                ..PlayOptions::default()
+            };
+            let played = play(MAZE_01, &options);
+            assert!(played.finished || !played.goal_seen, "budget {budget}");
+        }
+    }
+
+    #[test]
+    fn looks_behind_a_start_in_the_middle() {
+        let options = PlayOptions {
+            start: Cell::new(0, 5),
+            goal: Some(Area::new(Cell::new(0, 0), 1, 1)),
+            ..PlayOptions::default()
+        };
+        let played = play(MAZE_01, &options);
+        assert!(played.finished && signals(&played) == 1);
+        assert_eq!(played.speed_steps, 2);
+    }
+
+    #[test]
+    fn a_goal_that_is_walled_in() {
+        let maze = "3\n1,5,4\n0,0,0\n0,0,0";
+        let played = play(maze, &PlayOptions::default());
+        assert_eq!(played.summary(), "goal not seen 1000 + 0");
+        assert_eq!(signals(&played), 1);
+    }
+
+    #[test]
+    #[should_panic(expected = "settings 0 and 1")]
+    fn an_unknown_setting() {
+        DepthFirst::start(&Briefing {
+            setting: 2,
+            ..Briefing::contest(12)
+        });
+    }
+}

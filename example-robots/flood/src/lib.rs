@@ -122,6 +122,11 @@ impl Flood {
 
     /// Whether one more step leaves enough of the budget for the race.
     fn has_time(&mut self) -> bool {
+        let cells = self.tracker.briefing().dimension.pow(2);
+        if self.tracker.can_afford(1, cells) {
+            // No race is longer than that, so there is no need to search.
+            return true;
+        }
         let start = self.tracker.briefing().start;
         let passages = self.tracker.map().passages(View::Pessimistic);
         self.questions.fill_until(passages, &self.goal, start);
