@@ -248,7 +248,7 @@ fn labels_and_paint_come_from_strangers() {
 ┌───────────────────────┐
 │     ·  ·  ·  ·  · ��  │
 │     · · · · · · · · · │
-│  r  · Go  · Gy  ·  �  │
+│  r  · G:o · G:y ·  �  │
 │     ╶─────╴ · · · · · │
 │     ·  G  ·  G  ·�[2J │
 │     ╷ · · · · · · · · │
@@ -263,7 +263,7 @@ fn labels_and_paint_come_from_strangers() {
 o-----o-----o-----o-----o
 |     .  .  .  .  . ??  |
 o     . . . . . . . . . o
-|  r  . Go  . Gy  .  ?  |
+|  r  . G:o . G:y .  ?  |
 o     o-----o . . . . . o
 |     .  G  .  G  .?[2J |
 o     o . . . . . . . . o

@@ -12,7 +12,8 @@
 //! | unknown        | `·`               | `.`           |
 //! | heat, rising   | ` `, `░ ▒ ▓ █`    | ` `, `: = % #`|
 //!
-//! `S` is the start and `G` a goal cell; paint is a letter after the content.
+//! `S` is the start and `G` a goal cell. Paint is the letter of its colour, after
+//! a colon when the cell has other content.
 
 use super::{Picture, Wall};
 use crate::maze::{Cell, Heading};
@@ -245,7 +246,12 @@ fn content(
         Some(number) => text.push_str(&number.to_string()),
         None => {}
     }
-    text.extend(mark.paint.map(super::Paint::letter));
+    if let Some(paint) = mark.paint {
+        if !text.is_empty() {
+            text.push(':');
+        }
+        text.push(paint.letter());
+    }
     if text.is_empty() && mark.heat.is_none() && picture.is_unknown(cell) {
         text.push(glyphs.unknown);
     }
