@@ -9,6 +9,7 @@
 //! | remember walls | [`Map`], [`Passages`], [`CellSet`] |
 //! | keep pose, map and budget together | [`Tracker`] |
 //! | find the fewest steps | [`Search`] |
+//! | find cheapest paths under costs of your own | [`AStar`] |
 //! | roll dice | [`Random`] |
 //! | tell the people who watch something | [`journal`] |
 //! | test a robot natively, without WebAssembly | [`testing`] |
@@ -16,6 +17,7 @@
 //! The smallest robot that does something is in the documentation of [`Robot`];
 //! `example-robots/` in the wasmouse repository has complete ones.
 
+mod astar;
 #[doc(hidden)]
 pub mod bindings;
 mod geometry;
@@ -30,6 +32,7 @@ mod search;
 pub mod testing;
 mod tracker;
 
+pub use astar::{AStar, Path};
 pub use bindings::wasmouse::robot::types::{
     Action, Area, Briefing, BudgetScope, Cell, Heading, Move, Sensors, Turn,
 };
