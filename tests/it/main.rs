@@ -5,6 +5,9 @@
 
 /// Maze files: reading, round trips, and a survey counted in another way.
 mod formats;
+
+/// The prebuilt robots against their sources and their manifest.
+mod prebuilt;
 /// Where the shared material is.
 mod shared;
 /// Optimal paths and the floor of the official mazes.

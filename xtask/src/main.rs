@@ -1,2 +1,42 @@
-//! Automation.
-fn main() {}
+//! `cargo xtask`: the commands of a maintainer.
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use xtask::{repository, robots, verify};
+
+/// Automation for the wasmouse repository.
+#[derive(Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask")]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Do what CI does: format, lints, docs, build, robots, tests, licences.
+    Test,
+    /// Build the bundled robots into example-robots/prebuilt.
+    Robots {
+        /// Build nothing: say which prebuilt robots are stale.
+        #[arg(long)]
+        check: bool,
+    },
+}
+
+fn main() -> ExitCode {
+    let root = repository();
+    let outcome = match Cli::parse().command {
+        Command::Test => verify::run(&root),
+        Command::Robots { check: false } => robots::rebuild(&root),
+        Command::Robots { check: true } => robots::check(&root),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("error: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -6,6 +6,7 @@
 //! [`Fault`] in the [`Verdict`]); an `Err` is a failure of the host and never a
 //! score. Robots run in this process; nothing outside this module knows that.
 
+pub mod bundled;
 pub mod componentize;
 
 mod bindings;

@@ -1,0 +1,66 @@
+//! `cargo xtask test`: everything that has to hold before a change is merged.
+//!
+//! Cheap steps come first, and the first failure ends it. Every cargo call is
+//! for the whole workspace, so that features are unified in one way and the
+//! heavy dependencies are compiled once for checking and once for running.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use crate::robots;
+use crate::step::{Step, target_folder};
+
+/// Where the tests find robots that were built from source just now.
+pub const BUILT_ROBOTS_VARIABLE: &str = "WASMOUSE_BUILT_ROBOTS";
+
+/// Runs all steps.
+///
+/// # Errors
+///
+/// A line that names the step that failed.
+pub fn run(root: &Path) -> Result<(), String> {
+    Step::cargo("format", root)
+        .args(["fmt", "--all", "--check"])
+        .run()?;
+    Step::cargo("lints", root)
+        .args(["clippy", "--workspace", "--all-targets"])
+        .args(["--", "-D", "warnings"])
+        .run()?;
+    Step::cargo("documentation", root)
+        .args(["doc", "--workspace", "--no-deps"])
+        .env("RUSTDOCFLAGS", "-D warnings")
+        .run()?;
+    licences(root)?;
+    Step::cargo("build", root)
+        .args(["build", "--workspace", "--bins"])
+        .run()?;
+    let built = target_folder(root).join("robots");
+    robots::build_all(root, &built)?;
+    Step::cargo("tests", root)
+        .args(["test", "--workspace"])
+        .env(BUILT_ROBOTS_VARIABLE, &built)
+        .run()?;
+    eprintln!("everything holds");
+    Ok(())
+}
+
+/// The check of licences and advisories is a program of its own and not a part
+/// of Rust, so a machine without it skips the step; CI has it.
+fn licences(root: &Path) -> Result<(), String> {
+    let installed = Command::new("cargo-deny")
+        .arg("--version")
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status()
+        .is_ok_and(|status| status.success());
+    if !installed {
+        eprintln!("==> licences: skipped, cargo-deny is not installed");
+        eprintln!("    to have it: cargo install --locked cargo-deny");
+        return Ok(());
+    }
+    // Advisories need a download and change from day to day; CI looks at them in
+    // a job of its own, so that they never make a good change fail here.
+    Step::cargo("licences", root)
+        .args(["deny", "check", "bans", "licenses", "sources"])
+        .run()
+}
