@@ -6,10 +6,13 @@
 //! values there, and nothing below sees a flag.
 
 mod build;
+mod completions;
 mod exit;
 mod failure;
+mod man;
 mod maze;
 mod mazes;
+mod new;
 mod output;
 mod toolchain;
 
@@ -32,7 +35,10 @@ struct Cli {
 enum Command {
     /// Look at mazes: check, convert, draw, solve and generate them.
     Maze(maze::Args),
+    New(new::Args),
     Build(build::Args),
+    Completions(completions::Args),
+    Man(man::Args),
 }
 
 /// Runs the command line of this process and returns its exit code.
@@ -40,7 +46,10 @@ pub fn main() -> ExitCode {
     let cli = Cli::parse();
     let outcome: Result<Exit, Failure> = match cli.command {
         Command::Maze(args) => maze::run(args),
+        Command::New(args) => new::run(&args),
         Command::Build(args) => build::run(&args),
+        Command::Completions(args) => completions::run(&args),
+        Command::Man(args) => man::run(&args),
     };
     match outcome {
         Ok(exit) => exit.into(),
