@@ -8,6 +8,10 @@ mod formats;
 
 /// The prebuilt robots against their sources and their manifest.
 mod prebuilt;
+/// The example robots, natively, in mazes of every size and shape.
+mod robots_native;
+/// The SDK's testing arena against the recorded vectors and the host's simulation.
+mod sdk_arena;
 /// Where the shared material is.
 mod shared;
 /// Optimal paths and the floor of the official mazes.

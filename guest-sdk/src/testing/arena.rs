@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::maze::Maze;
 use super::record::{Entry, Recorder};
-use crate::{Action, Area, Briefing, BudgetScope, Cell, Heading, Move, Robot, Sensors};
+use crate::{Action, Area, Briefing, BudgetScope, Cell, Heading, Move, Pose, Robot, Sensors};
 
 /// How to play; the default is the ruleset `udacity` with seed 0 and setting 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -113,6 +113,8 @@ pub struct Played {
     pub score: Option<Score>,
     /// Every call, in order.
     pub stops: Vec<Stop>,
+    /// Where the robot stands after the last call.
+    pub end: Pose,
     /// Moves that a wall stopped.
     pub bumps: u32,
     /// Moves longer than the longest.
@@ -159,13 +161,15 @@ pub fn play<R: Robot>(maze_text: &str, options: &PlayOptions) -> Played {
     let mut arena = Arena::new(&maze, briefing);
     while arena.may_go_on() {
         recorder.step(arena.played.stops.len() as u32 + 1);
-        let sensors = maze.sense(arena.cell, arena.heading);
+        let sensors = maze.sense(arena.pose.cell, arena.pose.heading);
         let action = robot.next_move(sensors);
         arena.step(sensors, action);
     }
-    let mut played = arena.played;
-    played.journal = recorder.finish();
-    played
+    Played {
+        end: arena.pose,
+        journal: recorder.finish(),
+        ..arena.played
+    }
 }
 
 /// The briefing that [`play`] hands out for a maze of this dimension.
@@ -187,8 +191,7 @@ struct Arena<'a> {
     maze: &'a Maze,
     briefing: Briefing,
     run: u8,
-    cell: Cell,
-    heading: Heading,
+    pose: Pose,
     played: Played,
 }
 
@@ -198,8 +201,7 @@ impl<'a> Arena<'a> {
             maze,
             briefing,
             run: 1,
-            cell: briefing.start,
-            heading: Heading::Up,
+            pose: Pose::at_start(briefing.start),
             played: Played {
                 finished: false,
                 goal_seen: false,
@@ -207,6 +209,7 @@ impl<'a> Arena<'a> {
                 speed_steps: 0,
                 score: None,
                 stops: Vec::new(),
+                end: Pose::at_start(briefing.start),
                 bumps: 0,
                 clamps: 0,
                 resets_before_goal: 0,
@@ -229,8 +232,8 @@ impl<'a> Arena<'a> {
     fn step(&mut self, sensors: Sensors, action: Action) {
         self.played.stops.push(Stop {
             run: self.run,
-            cell: self.cell,
-            heading: self.heading,
+            cell: self.pose.cell,
+            heading: self.pose.heading,
             sensors,
             action,
         });
@@ -252,32 +255,31 @@ impl<'a> Arena<'a> {
             self.played.resets_before_goal += 1;
         } else {
             self.run = 2;
-            self.cell = self.briefing.start;
-            self.heading = Heading::Up;
+            self.pose = Pose::at_start(self.briefing.start);
         }
     }
 
     fn drive(&mut self, Move { turn, advance }: Move) {
-        self.heading = self.heading.turned(turn);
+        self.pose.heading = self.pose.heading.turned(turn);
         let travel = if advance < 0 {
-            self.heading.opposite()
+            self.pose.heading.opposite()
         } else {
-            self.heading
+            self.pose.heading
         };
         let wish = u32::from(advance.unsigned_abs());
         self.played.clamps += u32::from(wish > self.briefing.longest_move);
         for _ in 0..wish.min(self.briefing.longest_move) {
-            if !self.maze.is_open(self.cell, travel) {
+            if !self.maze.is_open(self.pose.cell, travel) {
                 self.played.bumps += 1;
                 break;
             }
-            self.cell = self
+            self.pose.cell = self
                 .maze
-                .neighbor(self.cell, travel)
+                .neighbor(self.pose.cell, travel)
                 .expect("the perimeter is closed");
         }
         // Only the final cell of a step counts; passing through does not.
-        if self.briefing.goal.contains(self.cell) {
+        if self.briefing.goal.contains(self.pose.cell) {
             self.arrive();
         }
     }
@@ -326,7 +328,7 @@ mod tests {
         let mut actions = actions.iter();
         while arena.may_go_on() {
             let action = actions.next().copied().unwrap_or(Action::drive(Left, 0));
-            arena.step(maze.sense(arena.cell, arena.heading), action);
+            arena.step(maze.sense(arena.pose.cell, arena.pose.heading), action);
         }
         arena.played
     }

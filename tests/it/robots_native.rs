@@ -1,0 +1,129 @@
+//! What every example robot owes in every maze it can meet: no panic, no bump, no
+//! refused reset. And what two of them owe in legal ones: to finish.
+//!
+//! Played natively in the SDK's arena, which is fast enough for thousands.
+
+use robot_count_expansion::CountExpansion;
+use robot_dfs::DepthFirst;
+use robot_flood::Flood;
+use robot_random::RandomWalk;
+use robot_wall_follower::WallFollower;
+use wasmouse::maze::format::{self, Format};
+use wasmouse::maze::generate::GenSpec;
+use wasmouse::maze::{self, Walls};
+use wasmouse_sdk::testing::{self, PlayOptions, Played};
+use wasmouse_sdk::{Area, BudgetScope, Cell, Random, Robot};
+
+/// Flood and depth-first search finish every legal maze within the budget, in each
+/// of their settings.
+#[test]
+fn finish_legal_mazes() {
+    let kinds = [
+        "division",
+        "tree,loops=0",
+        "tree,loops=12",
+        "tree,loops=60",
+        "braid",
+    ];
+    for kind in kinds {
+        let spec: GenSpec = format!("gen:{kind}:12..=20:1..=12")
+            .parse()
+            .expect("a specification");
+        for (name, maze) in spec.expand() {
+            let text = format::print(&maze, Format::Udacity).expect("a contest maze");
+            for setting in [0, 1] {
+                let options = PlayOptions {
+                    setting,
+                    ..PlayOptions::default()
+                };
+                let flood = play::<Flood>(&text, &options);
+                assert!(
+                    flood.finished,
+                    "flood {setting} in {name}: {}",
+                    flood.summary()
+                );
+                let dfs = play::<DepthFirst>(&text, &options);
+                assert!(dfs.finished, "dfs {setting} in {name}: {}", dfs.summary());
+            }
+        }
+    }
+}
+
+/// Any walls, any start, any goal, any budget: whatever can be loaded.
+#[test]
+fn survive_any_maze() {
+    let mut random = Random::new(1);
+    let mut finished = 0;
+    for round in 0..1500 {
+        let dimension = match round % 4 {
+            0 => 2 + random.below(4),
+            1 => 2 + random.below(63),
+            _ => 2 + random.below(19),
+        };
+        let share = random.below(75);
+        let text = any_walls(dimension, share, &mut random);
+        let mut options = any_options(dimension, &mut random);
+        finished += u32::from(play::<Flood>(&text, &options).finished);
+        play::<DepthFirst>(&text, &options);
+        play::<WallFollower>(&text, &options);
+        options.setting = 0;
+        play::<RandomWalk>(&text, &options);
+        play::<CountExpansion>(&text, &options);
+    }
+    assert!(finished > 300, "only {finished} finished: a weak test");
+}
+
+/// Plays, and checks what holds in every match.
+fn play<R: Robot>(text: &str, options: &PlayOptions) -> Played {
+    let played = testing::play::<R>(text, options);
+    let name = std::any::type_name::<R>();
+    assert_eq!(played.bumps, 0, "{name} with {options:?} in\n{text}");
+    assert_eq!(played.clamps, 0, "{name} with {options:?} in\n{text}");
+    let refused = (played.resets_before_goal, played.resets_in_run_2);
+    assert_eq!(refused, (0, 0), "{name} with {options:?} in\n{text}");
+    played
+}
+
+fn any_walls(dimension: u32, share: u32, random: &mut Random) -> String {
+    let mut walls = Walls::open(dimension as u8);
+    let cells: Vec<maze::Cell> = walls.cells().collect();
+    for &cell in &cells {
+        for heading in [maze::Heading::Up, maze::Heading::Right] {
+            if random.below(100) < share {
+                walls.set(cell, heading, false);
+            }
+        }
+    }
+    // By hand, because the host prints only mazes with a start and a goal.
+    let mut text = dimension.to_string();
+    for (index, &cell) in cells.iter().enumerate() {
+        let first = index as u32 % dimension == 0;
+        text.push(if first { '\n' } else { ',' });
+        text.push_str(&walls.value(cell).to_string());
+    }
+    text
+}
+
+fn any_options(dimension: u32, random: &mut Random) -> PlayOptions {
+    let mut any_cell = || Cell::new(random.below(dimension), random.below(dimension));
+    let (start, origin) = (any_cell(), any_cell());
+    let width = 1 + random.below((dimension - origin.x).min(3));
+    let height = 1 + random.below((dimension - origin.y).min(3));
+    let mut goal = Area::new(origin, width, height);
+    if goal.contains(start) {
+        // No maze has its start in the goal.
+        let elsewhere = (start.x + 1) % dimension;
+        goal = Area::new(Cell::new(elsewhere, start.y), 1, 1);
+    }
+    let scopes = [BudgetScope::BothRuns, BudgetScope::EachRun];
+    PlayOptions {
+        seed: random.next_u64(),
+        setting: random.below(2),
+        budget: [1, 2, 10, 100, 400][random.below(5) as usize],
+        budget_scope: scopes[random.below(2) as usize],
+        longest_move: [1, 2, 3, 3, 7, 127][random.below(6) as usize],
+        start,
+        goal: Some(goal),
+        ..PlayOptions::default()
+    }
+}
