@@ -3,6 +3,8 @@
 //! Tests that need material from outside the repository find it through
 //! [`shared`] and say `skipped: ...` where it is absent.
 
+/// The `wasmouse` binary.
+mod binary;
 /// Maze files: reading, round trips, and a survey counted in another way.
 mod formats;
 
@@ -16,3 +18,7 @@ mod sdk_arena;
 mod shared;
 /// Optimal paths and the floor of the official mazes.
 mod solver;
+/// `wasmouse new`, `build` and native tests of a new robot.
+mod tutorial;
+/// The hash of the WIT beside its history.
+mod wit;

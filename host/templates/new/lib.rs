@@ -42,7 +42,8 @@ impl Robot for MyRobot {
         let pose = self.tracker.pose();
         let passages = self.tracker.map().passages(view);
         self.search.fill_until(passages, &self.goal, pose.cell);
-        match self.search.route(passages, pose).next() {
+        let hop = self.search.route(passages, pose).next();
+        match hop {
             Some(hop) => self.tracker.go(hop.heading, hop.cells),
             // The goal is walled in: nothing is left to try.
             None => self.tracker.turn(Turn::Right),
@@ -58,7 +59,8 @@ mod tests {
     #[test]
     fn finishes_the_first_maze() {
         let played = testing::play::<MyRobot>(MAZE_01, &PlayOptions::default());
-        assert!(played.summary().starts_with("finished"), "{}", played.summary());
+        let summary = played.summary();
+        assert!(summary.starts_with("finished"), "{summary}");
         assert_eq!(played.bumps, 0);
     }
 }
