@@ -50,8 +50,6 @@ pub struct NamedMaze {
     pub name: String,
     /// The maze.
     pub maze: Maze,
-    /// The format of its text; `None` when it did not come from text.
-    pub format: Option<Format>,
 }
 
 /// Which mazes may pass.
@@ -93,11 +91,11 @@ pub fn load(specs: &[String], rules: Legality) -> Result<Vec<NamedMaze>, Failure
     let names = unique_names(&sources);
     let mut mazes = Vec::new();
     for (source, name) in sources.iter().zip(names) {
-        let (maze, format) = source.read()?;
+        let (maze, _) = source.read()?;
         if rules == Legality::Contest {
             require_legal(source, &maze)?;
         }
-        mazes.push(NamedMaze { name, maze, format });
+        mazes.push(NamedMaze { name, maze });
     }
     Ok(mazes)
 }
@@ -368,7 +366,6 @@ mod tests {
     fn bundled_mazes_are_found_by_name() {
         let mazes = load(&[OFFICIAL.to_owned()], Legality::Contest).expect("legal");
         assert_eq!(mazes[0].name, OFFICIAL);
-        assert_eq!(mazes[0].format, Some(Format::Udacity));
     }
 
     #[test]
@@ -377,7 +374,6 @@ mod tests {
         let mazes = load(&specs, Legality::Contest).expect("legal");
         let names: Vec<&str> = mazes.iter().map(|maze| &maze.name[..]).collect();
         assert_eq!(names, ["gen:tree,loops=12:12:1", "gen:tree,loops=12:12:2"]);
-        assert_eq!(mazes[0].format, None);
     }
 
     #[test]

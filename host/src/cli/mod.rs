@@ -7,14 +7,25 @@
 
 mod build;
 mod completions;
+mod demo;
 mod exit;
 mod failure;
+mod inspect;
+mod interrupt;
+mod journal;
+mod list;
 mod man;
 mod maze;
 mod mazes;
 mod new;
 mod output;
+mod page;
+mod robots;
+mod run;
+mod setup;
+mod terminal;
 mod toolchain;
+mod watch;
 
 use std::process::ExitCode;
 
@@ -33,6 +44,10 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Demo(demo::Args),
+    Run(run::Args),
+    Robots(list::Args),
+    Inspect(inspect::Args),
     /// Look at mazes: check, convert, draw, solve and generate them.
     Maze(maze::Args),
     New(new::Args),
@@ -45,6 +60,10 @@ enum Command {
 pub fn main() -> ExitCode {
     let cli = Cli::parse();
     let outcome: Result<Exit, Failure> = match cli.command {
+        Command::Demo(args) => demo::run(&args),
+        Command::Run(args) => run::run(&args),
+        Command::Robots(args) => list::run(&args),
+        Command::Inspect(args) => inspect::run(&args),
         Command::Maze(args) => maze::run(args),
         Command::New(args) => new::run(&args),
         Command::Build(args) => build::run(&args),

@@ -4,6 +4,16 @@
 //! Turns values into text and prints nothing itself. Wire structs live here, so
 //! that the domain types can change without changing what programs read.
 
+pub mod bundled;
+pub mod inspection;
 pub mod maze_check;
 pub mod maze_solve;
+pub mod page;
 pub mod picture;
+pub mod replay;
+pub mod result;
+pub mod table;
+
+mod visible;
+
+pub use visible::visible;

@@ -12,7 +12,7 @@ wasmtime::component::bindgen!({
     world: "robot",
 });
 
-pub use wasmouse::robot::{journal, types};
+pub use self::wasmouse::robot::{journal, types};
 
 /// What a robot is told before its first step.
 pub(super) fn briefing(

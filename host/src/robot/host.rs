@@ -172,6 +172,10 @@ impl Robot {
         &self.digest
     }
 
+    pub(super) fn component(&self) -> &Component {
+        self.pre.instance_pre().component()
+    }
+
     /// Where its compiled code came from.
     pub const fn cache_use(&self) -> &CacheUse {
         &self.cache

@@ -154,6 +154,16 @@ impl Journal {
         })
     }
 
+    /// How many entries there are.
+    pub fn len(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// Whether the robot said nothing.
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
     /// Entries that the limit kept out.
     pub const fn dropped(&self) -> u64 {
         self.dropped

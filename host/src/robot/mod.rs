@@ -17,6 +17,7 @@ mod error;
 mod fault;
 mod guest;
 mod host;
+mod inspection;
 mod journal;
 mod limiter;
 mod play;
@@ -29,6 +30,7 @@ pub use engine::{ENGINE_REVISION, MATCH_SECONDS_MAX, WASMTIME_VERSION, engine_id
 pub use error::HostError;
 pub use fault::{Fault, FaultKind, FuelLimit};
 pub use host::{CacheUse, Host, Robot};
+pub use inspection::{Inspection, Needs};
 pub use journal::{Belief, Color, Entry, Journal, Level, Note};
 pub use play::{FuelUse, Game, Outcome, Phase, Recorder, Verdict};
 pub use refusal::Refusal;

@@ -3,6 +3,8 @@
 //! A pure function of component, maze, ruleset, seed and setting: a fresh store
 //! and instance per match, fuel from the first instruction, and no clock.
 
+use std::borrow::Cow;
+
 use wasmtime::Store;
 
 use super::bindings::{self, Robot as RobotInstance};
@@ -73,6 +75,32 @@ pub enum Verdict {
     },
     /// The robot failed.
     Fault(Fault),
+}
+
+impl Verdict {
+    /// A short name as in JSON: lowercase letters and hyphens.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Finished(_) => "finished",
+            Self::BudgetUsedUp { goal_reached: true } => "budget-used-up-goal-reached",
+            Self::BudgetUsedUp {
+                goal_reached: false,
+            } => "budget-used-up",
+            Self::Fault(_) => "fault",
+        }
+    }
+
+    /// The verdict in a few words for people.
+    pub fn title(&self) -> Cow<'static, str> {
+        match self {
+            Self::Finished(_) => "finished".into(),
+            Self::BudgetUsedUp { goal_reached: true } => "budget used up, goal reached".into(),
+            Self::BudgetUsedUp {
+                goal_reached: false,
+            } => "budget used up".into(),
+            Self::Fault(fault) => format!("fault: {}", fault.kind.name()).into(),
+        }
+    }
 }
 
 /// Fuel that a match used. The fuel of instantiation is limited but not told:

@@ -46,6 +46,11 @@ impl Score {
         self.exploration_steps
     }
 
+    /// What the steps of run 1 are divided by; at least 1.
+    pub const fn divisor(self) -> u32 {
+        self.divisor
+    }
+
     /// The score in thousandths of a step, rounded half to even.
     pub const fn thousandths(self) -> u64 {
         let divisor = self.divisor as u64;

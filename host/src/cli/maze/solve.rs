@@ -158,7 +158,6 @@ mod tests {
         mazes.push(NamedMaze {
             name: "closed".to_owned(),
             maze: closed,
-            format: None,
         });
         let solutions = mazes.iter().map(solve).collect();
         (mazes, solutions)

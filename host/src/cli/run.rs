@@ -1,0 +1,249 @@
+//! `wasmouse run`: robots in mazes, with a verdict and a score for each match.
+
+use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::exit::Exit;
+use super::failure::Failure;
+use super::mazes::{self, Legality};
+use super::output::{self, Existing};
+use super::robots::{self, Specification};
+use super::setup::SetupArgs;
+use super::{interrupt, journal, page, terminal, watch};
+use crate::contest::{Contest, ContestMaze, Entrant, MatchResult, standings};
+use crate::maze::bundled;
+use crate::report::result::ContestReport;
+use crate::report::table;
+use crate::report::visible;
+use crate::robot::{Host, Verdict};
+
+const EXAMPLES: &str = "\
+Examples:
+  wasmouse run flood                          a bundled robot in the bundled mazes
+  wasmouse run my-robot.wasm maze.txt         your robot in your maze
+  wasmouse run flood dfs gen:tree:16:1..=100  two robots in 100 generated mazes
+  wasmouse run random --maze test_maze_01 --repeat 20
+  wasmouse run flood test_maze_01 --watch
+  wasmouse run flood old-contest --lenient --json > results.json
+
+Exit codes:
+  0  every robot was admitted and every match ended without a fault; a robot
+     that did not finish within its steps is no fault
+  4  a robot was refused or ended a match with a fault; all others were played
+  130  interrupted; what was played by then has been printed";
+
+/// Run robots in mazes and print verdicts, scores and standings.
+///
+/// Among the arguments, the names of bundled robots and files that end in .wasm
+/// are robots; everything else is a maze. Without a maze, the bundled ones are
+/// used. Every robot plays every maze, each match in a fresh sandbox.
+#[derive(clap::Args, Debug)]
+#[command(after_long_help = format!(
+    "{}\n\n{}\n\n{EXAMPLES}", robots::SPECIFICATION_HELP, mazes::SPECIFICATION_HELP
+))]
+pub struct Args {
+    /// Robots and mazes, in any order
+    #[arg(value_name = "ROBOT|MAZE")]
+    arguments: Vec<String>,
+    /// A robot, whatever its file is called
+    #[arg(long = "robot", value_name = "ROBOT")]
+    robots: Vec<String>,
+    /// A maze, whatever its file is called
+    #[arg(long = "maze", short, value_name = "MAZE")]
+    mazes: Vec<String>,
+    /// The first seed; a robot's only source of chance
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Play each robot in each maze this many times, with seed, seed + 1, ...
+    #[arg(long, value_name = "COUNT", default_value_t = 1,
+          value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    repeat: u32,
+    /// Use mazes that break contest rules as they are
+    #[arg(long)]
+    lenient: bool,
+    /// Print JSON: every match with hashes, steps and fuel
+    #[arg(long, conflicts_with = "html")]
+    json: bool,
+    /// Also write a web page with the standings and pictures
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Replace FILE when it is there
+    #[arg(long, requires = "html")]
+    force: bool,
+    /// Print what the robots write to their journals, on standard error
+    #[arg(long)]
+    log: bool,
+    /// Show the match step by step on the terminal; for one robot in one maze
+    #[arg(long, conflicts_with_all = ["json", "html", "log"])]
+    watch: bool,
+    /// Time between the steps that --watch shows, in milliseconds
+    #[arg(long, value_name = "MS", default_value_t = 120, requires = "watch",
+          value_parser = clap::value_parser!(u64).range(0..=60_000))]
+    delay: u64,
+    /// Draw with ASCII characters only
+    #[arg(long)]
+    ascii: bool,
+    #[command(flatten)]
+    setup: SetupArgs,
+}
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<Exit, Failure> {
+    let (specifications, maze_specs) = args.sort_arguments()?;
+    let legality = Legality::from_flag(args.lenient);
+    let mazes = mazes::load(&maze_specs, legality)?;
+    let host = args.setup.host()?;
+    let contest = Contest {
+        entrants: robots::load(&specifications, &host)?,
+        mazes: mazes
+            .into_iter()
+            .map(|named| ContestMaze::new(named.name, named.maze, &args.setup.rules))
+            .collect(),
+        seeds: args.seeds()?,
+        rules: args.setup.rules,
+    };
+    let results = play(&contest, &host, args.setup.threads())?;
+    if args.watch && !results.is_empty() {
+        let delay = Duration::from_millis(args.delay);
+        watch::watch(&contest, &host, &results, delay, args.ascii)?;
+    }
+    if args.log {
+        journal::print(&contest, &host, &results)?;
+    }
+    args.report(&contest, &host, &results)?;
+    Ok(exit(&contest, &results))
+}
+
+/// Plays a contest with a progress bar on a terminal; Ctrl-C ends it early.
+pub fn play(contest: &Contest, host: &Host, threads: usize) -> Result<Vec<MatchResult>, Failure> {
+    let cancelled: &AtomicBool = interrupt::listen()?;
+    let total = u64::try_from(contest.matches()).unwrap_or(u64::MAX);
+    let bar = ProgressBar::new(total).with_style(
+        ProgressStyle::with_template("{bar:40} {pos}/{len} matches, {per_sec}, {eta} left")
+            .expect("a constant template"),
+    );
+    let results = contest
+        .run(host, threads, cancelled, &|| bar.inc(1))
+        .map_err(Failure::host);
+    bar.finish_and_clear();
+    results
+}
+
+/// The exit code that goes with these results; says so when they are not all.
+pub fn exit(contest: &Contest, results: &[MatchResult]) -> Exit {
+    let missing = contest.matches() - results.len();
+    if missing > 0 {
+        anstream::eprintln!("interrupted: {missing} matches were not played");
+        return Exit::Interrupted;
+    }
+    let is_fault = |result: &MatchResult| matches!(result.outcome.verdict, Verdict::Fault(_));
+    let is_refused = |entrant: &Entrant| entrant.admission.is_err();
+    if contest.entrants.iter().any(is_refused) || results.iter().any(is_fault) {
+        Exit::Robot
+    } else {
+        Exit::Success
+    }
+}
+
+/// Tells on standard error why robots were refused or failed.
+pub fn tell_failures(contest: &Contest, results: &[MatchResult]) {
+    for entrant in &contest.entrants {
+        if let Err(refusal) = &entrant.admission {
+            let (name, reason) = (visible(&entrant.name), visible(&refusal.to_string()));
+            anstream::eprintln!("refused `{name}`: {reason}\n  hint: {}", refusal.hint());
+        }
+    }
+    // The same fault in every maze is told once for each, up to a screenful.
+    const TOLD_MAX: usize = 20;
+    let faults = results
+        .iter()
+        .filter_map(|result| match &result.outcome.verdict {
+            Verdict::Fault(fault) => Some((result, fault)),
+            Verdict::Finished(_) | Verdict::BudgetUsedUp { .. } => None,
+        });
+    let count = faults.clone().count();
+    for (result, fault) in faults.take(TOLD_MAX) {
+        let robot = visible(&contest.entrants[result.entrant].name);
+        let maze = visible(&contest.mazes[result.maze].name);
+        let fault = visible(&fault.to_string());
+        anstream::eprintln!("fault of `{robot}` in `{maze}`: {fault}");
+    }
+    if count > TOLD_MAX {
+        anstream::eprintln!("and {} more faults; --json lists all", count - TOLD_MAX);
+    }
+}
+
+impl Args {
+    /// Which arguments are robots and which are mazes.
+    fn sort_arguments(&self) -> Result<(Vec<Specification>, Vec<String>), Failure> {
+        let mut robots = Vec::new();
+        let mut mazes = Vec::new();
+        for argument in &self.arguments {
+            if Specification::is_meant_by(argument) {
+                robots.push(Specification::parse(argument)?);
+            } else {
+                mazes.push(argument.clone());
+            }
+        }
+        for text in &self.robots {
+            robots.push(Specification::parse(text)?);
+        }
+        mazes.extend(self.mazes.iter().cloned());
+        if robots.is_empty() {
+            return Err(Failure::usage("no robot is given").hint(
+                "name a bundled robot (`wasmouse robots` lists them) or a file that ends in .wasm",
+            ));
+        }
+        if mazes.is_empty() {
+            mazes.extend(bundled().iter().map(|maze| maze.name.to_owned()));
+        }
+        Ok((robots, mazes))
+    }
+
+    fn seeds(&self) -> Result<Vec<u64>, Failure> {
+        let last = self.seed.checked_add(u64::from(self.repeat - 1));
+        let last = last.ok_or_else(|| {
+            Failure::usage(format!(
+                "seed {} repeated {} times passes the largest seed",
+                self.seed, self.repeat
+            ))
+            .hint("choose a smaller --seed")
+        })?;
+        Ok((self.seed..=last).collect())
+    }
+
+    fn report(
+        &self,
+        contest: &Contest,
+        host: &Host,
+        results: &[MatchResult],
+    ) -> Result<(), Failure> {
+        let standings = standings(contest, results);
+        if let Some(path) = &self.html {
+            let existing = if self.force {
+                Existing::Replace
+            } else {
+                Existing::Keep
+            };
+            page::write(path, existing, contest, host, results, &standings)?;
+        }
+        if self.json {
+            return output::print(&ContestReport::new(contest, results, &standings).to_json());
+        }
+        let lines = terminal::table_lines(self.ascii);
+        if !results.is_empty() {
+            output::print(&table::matches(contest, results, lines))?;
+        }
+        if contest.entrants.len() > 1 || results.len() > 1 {
+            output::print(&format!(
+                "\n{}",
+                table::standings(contest, &standings, lines)
+            ))?;
+        }
+        tell_failures(contest, results);
+        Ok(())
+    }
+}

@@ -1,0 +1,140 @@
+//! [`Mean`]: an exact average of scores.
+
+use std::cmp::Ordering;
+use std::fmt;
+
+use crate::sim::Score;
+
+/// The average of one or more scores of the same ruleset, as an exact fraction.
+///
+/// Orders exactly and displays with three decimals, rounded half to even.
+///
+/// ```
+/// use wasmouse::contest::Mean;
+/// use wasmouse::sim::Score;
+///
+/// let scores = [Score::new(17, 18, 30), Score::new(22, 23, 30)];
+/// let mean: Mean = scores.into_iter().collect::<Option<_>>().expect("two scores");
+/// assert_eq!(mean.to_string(), "20.183");
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Mean {
+    /// Average times the denominator; negative for a difference of averages.
+    numerator: i128,
+    denominator: i128,
+}
+
+impl Mean {
+    /// How much larger this average is than another of as many scores.
+    pub fn minus(self, other: Self) -> Self {
+        Self {
+            numerator: self.numerator * other.denominator - other.numerator * self.denominator,
+            denominator: self.denominator * other.denominator,
+        }
+    }
+
+    /// The average in thousandths of a step, rounded half to even.
+    pub const fn thousandths(self) -> i64 {
+        let numerator = self.numerator * 1000;
+        let (quotient, rest) = (
+            numerator.div_euclid(self.denominator),
+            numerator.rem_euclid(self.denominator),
+        );
+        let twice = rest * 2;
+        let round_up = twice > self.denominator || (twice == self.denominator && quotient % 2 != 0);
+        (quotient + round_up as i128) as i64
+    }
+}
+
+impl From<Score> for Mean {
+    fn from(score: Score) -> Self {
+        Self {
+            numerator: numerator(score),
+            denominator: i128::from(score.divisor()),
+        }
+    }
+}
+
+impl FromIterator<Score> for Option<Mean> {
+    /// The average of the scores; `None` of none.
+    ///
+    /// All scores have one divisor: they are of one ruleset.
+    fn from_iter<I: IntoIterator<Item = Score>>(scores: I) -> Self {
+        let mut scores = scores.into_iter();
+        let first = scores.next()?;
+        let divisor = i128::from(first.divisor());
+        let mut numerator = numerator(first);
+        let mut count = 1;
+        for score in scores {
+            debug_assert_eq!(score.divisor(), first.divisor(), "scores of one ruleset");
+            numerator += self::numerator(score);
+            count += 1;
+        }
+        Some(Mean {
+            numerator,
+            denominator: divisor * count,
+        })
+    }
+}
+
+fn numerator(score: Score) -> i128 {
+    i128::from(score.speed_steps()) * i128::from(score.divisor())
+        + i128::from(score.exploration_steps())
+}
+
+impl PartialEq for Mean {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Mean {}
+
+impl PartialOrd for Mean {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Mean {
+    fn cmp(&self, other: &Self) -> Ordering {
+        (self.numerator * other.denominator).cmp(&(other.numerator * self.denominator))
+    }
+}
+
+impl fmt::Display for Mean {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let thousandths = self.thousandths();
+        let sign = if thousandths < 0 { "-" } else { "" };
+        let size = thousandths.unsigned_abs();
+        f.pad(&format!("{sign}{}.{:03}", size / 1000, size % 1000))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mean(scores: &[(u32, u32)]) -> Option<Mean> {
+        scores
+            .iter()
+            .map(|&(speed, exploration)| Score::new(speed, exploration, 30))
+            .collect()
+    }
+
+    #[test]
+    fn averages_are_exact() {
+        assert_eq!(mean(&[]), None);
+        assert_eq!(mean(&[(10, 30)]), mean(&[(11, 0), (9, 60)]));
+        assert!(mean(&[(10, 1), (10, 0)]) > mean(&[(10, 0)]));
+    }
+
+    #[test]
+    fn prints_three_decimals_and_a_sign() {
+        let (low, high) = (mean(&[(17, 18)]), mean(&[(20, 0), (20, 1)]));
+        let (low, high) = (low.expect("a score"), high.expect("two scores"));
+        assert_eq!(high.minus(low).to_string(), "2.417");
+        assert_eq!(low.minus(high).to_string(), "-2.417");
+        assert_eq!(low.minus(low).to_string(), "0.000");
+    }
+}

@@ -1,0 +1,14 @@
+//! Many matches: robots by mazes by seeds, and the standings they make.
+//!
+//! The fourth stage of the pipeline `maze -> sim -> robot -> contest -> report`.
+//! A [`Contest`] is a value that says what is played; [`Contest::run`] plays it
+//! on any number of threads and returns the results in the contest's own order,
+//! the same on one thread or many. Prints nothing and reads no files.
+
+mod mean;
+mod run;
+mod standings;
+
+pub use mean::Mean;
+pub use run::{Contest, ContestError, ContestMaze, Entrant, MatchResult, Progress};
+pub use standings::{Standing, standings};

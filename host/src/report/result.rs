@@ -1,0 +1,278 @@
+//! The JSON of a contest: every match with everything that is needed to play it
+//! again, and the standings.
+//!
+//! ```json
+//! {
+//!   "schema": 1,
+//!   "wasmouse": "0.1.0",
+//!   "engine": "wasmtime-48.0.8+wasmouse.1",
+//!   "ruleset": {"name": "udacity", "version": 1, "sha256": "..."},
+//!   "complete": true,
+//!   "robots": [{"name": "flood", "sha256": "...", "setting": 0}],
+//!   "mazes": [{"name": "test_maze_01", "sha256": "...", "dimension": 12, "floor": 17.6}],
+//!   "matches": [{
+//!     "robot": "flood", "maze": "test_maze_01", "seed": 0,
+//!     "verdict": "finished", "score": 22.1,
+//!     "exploration_steps": 63, "speed_steps": 20,
+//!     "bumps": 0, "clamps": 0, "resets_before_goal": 0, "resets_in_speed_run": 0,
+//!     "start_fuel": 5210, "steps_fuel": 912345, "step_fuel_max": 30123,
+//!     "journal_entries": 0, "journal_dropped": 0,
+//!     "trace_sha256": "..."
+//!   }],
+//!   "standings": [{
+//!     "rank": 1, "robot": "flood", "matches": 1, "finished": 1, "goal_reached": 0,
+//!     "faults": 0, "mean_score": 22.1, "mean_regret": 4.5
+//!   }]
+//! }
+//! ```
+//!
+//! Steps are counted in steps, fuel in wasmtime's units, scores in steps with
+//! three decimals. The same contest on the same engine gives the same bytes,
+//! whatever the number of threads.
+
+use serde::Serialize;
+
+use crate::contest::{Contest, ContestMaze, Entrant, MatchResult, Mean, Standing};
+use crate::robot::{Digest, Fault, Verdict, engine_id};
+use crate::sim::{Ruleset, Score};
+
+/// The version of this JSON; raised when a reader of the old one would go wrong.
+const SCHEMA: u32 = 1;
+
+/// The whole document.
+#[derive(Serialize)]
+pub struct ContestReport<'a> {
+    schema: u32,
+    wasmouse: &'static str,
+    engine: String,
+    ruleset: WireRuleset,
+    /// False when the contest was interrupted: `matches` then holds what had
+    /// been played.
+    complete: bool,
+    robots: Vec<WireRobot<'a>>,
+    mazes: Vec<WireMaze<'a>>,
+    matches: Vec<WireMatch<'a>>,
+    standings: Vec<WireStanding<'a>>,
+}
+
+impl<'a> ContestReport<'a> {
+    /// The document for a contest and what has been played of it.
+    pub fn new(
+        contest: &'a Contest,
+        results: &'a [MatchResult],
+        standings: &'a [Standing],
+    ) -> Self {
+        Self {
+            schema: SCHEMA,
+            wasmouse: env!("CARGO_PKG_VERSION"),
+            engine: engine_id(),
+            ruleset: WireRuleset::new(&contest.rules),
+            complete: results.len() == contest.matches(),
+            robots: contest.entrants.iter().map(WireRobot::new).collect(),
+            mazes: contest.mazes.iter().map(WireMaze::new).collect(),
+            matches: results
+                .iter()
+                .map(|result| WireMatch::new(contest, result))
+                .collect(),
+            standings: standings
+                .iter()
+                .map(|line| WireStanding::new(contest, line))
+                .collect(),
+        }
+    }
+
+    /// The document as text, indented, with a newline at the end.
+    pub fn to_json(&self) -> String {
+        let mut text = serde_json::to_string_pretty(self)
+            .expect("strings, numbers and lists always serialise");
+        text.push('\n');
+        text
+    }
+}
+
+#[derive(Serialize)]
+struct WireRuleset {
+    name: &'static str,
+    version: u32,
+    sha256: String,
+}
+
+impl WireRuleset {
+    fn new(rules: &Ruleset) -> Self {
+        Self {
+            name: rules.name,
+            version: rules.version,
+            sha256: Digest::of(&rules.identity_bytes()).hex(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct WireRobot<'a> {
+    name: &'a str,
+    sha256: String,
+    setting: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refusal: Option<WireRefusal>,
+}
+
+#[derive(Serialize)]
+struct WireRefusal {
+    kind: &'static str,
+    reason: String,
+    hint: &'static str,
+}
+
+impl<'a> WireRobot<'a> {
+    fn new(entrant: &'a Entrant) -> Self {
+        let refusal = entrant.admission.as_ref().err();
+        Self {
+            name: &entrant.name,
+            sha256: entrant.digest.hex(),
+            setting: entrant.setting,
+            refusal: refusal.map(|refusal| WireRefusal {
+                kind: refusal.name(),
+                reason: refusal.to_string(),
+                hint: refusal.hint(),
+            }),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct WireMaze<'a> {
+    name: &'a str,
+    sha256: String,
+    dimension: u8,
+    floor: Option<f64>,
+}
+
+impl<'a> WireMaze<'a> {
+    fn new(maze: &'a ContestMaze) -> Self {
+        Self {
+            name: &maze.name,
+            sha256: maze.digest.hex(),
+            dimension: maze.maze.dimension(),
+            floor: maze.floor.map(score_number),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct WireMatch<'a> {
+    robot: &'a str,
+    maze: &'a str,
+    seed: u64,
+    verdict: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    score: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fault: Option<WireFault<'a>>,
+    exploration_steps: u32,
+    speed_steps: u32,
+    bumps: u32,
+    clamps: u32,
+    resets_before_goal: u32,
+    resets_in_speed_run: u32,
+    start_fuel: u64,
+    steps_fuel: u64,
+    step_fuel_max: u64,
+    journal_entries: u64,
+    journal_dropped: u64,
+    trace_sha256: String,
+}
+
+#[derive(Serialize)]
+struct WireFault<'a> {
+    kind: &'static str,
+    phase: &'static str,
+    run: u8,
+    step: u32,
+    x: u8,
+    y: u8,
+    detail: &'a str,
+}
+
+impl<'a> WireFault<'a> {
+    fn new(fault: &'a Fault) -> Self {
+        Self {
+            kind: fault.kind.name(),
+            phase: fault.phase.name(),
+            run: fault.run.number(),
+            step: fault.step,
+            x: fault.cell.x,
+            y: fault.cell.y,
+            detail: &fault.detail,
+        }
+    }
+}
+
+impl<'a> WireMatch<'a> {
+    fn new(contest: &'a Contest, result: &'a MatchResult) -> Self {
+        let outcome = &result.outcome;
+        let (score, fault) = match &outcome.verdict {
+            Verdict::Finished(score) => (Some(score_number(*score)), None),
+            Verdict::BudgetUsedUp { .. } => (None, None),
+            Verdict::Fault(fault) => (None, Some(WireFault::new(fault))),
+        };
+        let [exploration_steps, speed_steps] = outcome.steps;
+        let (journal_entries, journal_dropped) = result.journal;
+        Self {
+            robot: &contest.entrants[result.entrant].name,
+            maze: &contest.mazes[result.maze].name,
+            seed: result.seed,
+            verdict: outcome.verdict.name(),
+            score,
+            fault,
+            exploration_steps,
+            speed_steps,
+            bumps: outcome.counts.bumps,
+            clamps: outcome.counts.clamps,
+            resets_before_goal: outcome.counts.resets_before_goal,
+            resets_in_speed_run: outcome.counts.resets_in_speed_run,
+            start_fuel: outcome.fuel.start,
+            steps_fuel: outcome.fuel.steps,
+            step_fuel_max: outcome.fuel.step_max,
+            journal_entries,
+            journal_dropped,
+            trace_sha256: result.trace.hex(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct WireStanding<'a> {
+    rank: Option<u32>,
+    robot: &'a str,
+    matches: u32,
+    finished: u32,
+    goal_reached: u32,
+    faults: u32,
+    mean_score: Option<f64>,
+    mean_regret: Option<f64>,
+}
+
+impl<'a> WireStanding<'a> {
+    fn new(contest: &'a Contest, line: &Standing) -> Self {
+        Self {
+            rank: line.rank,
+            robot: &contest.entrants[line.entrant].name,
+            matches: line.matches,
+            finished: line.finished,
+            goal_reached: line.goal_reached,
+            faults: line.faults,
+            mean_score: line.score.map(mean_number),
+            mean_regret: line.regret.map(mean_number),
+        }
+    }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "below 2 to the 53 by far")]
+fn score_number(score: Score) -> f64 {
+    score.thousandths() as f64 / 1000.0
+}
+
+#[expect(clippy::cast_precision_loss, reason = "below 2 to the 53 by far")]
+fn mean_number(mean: Mean) -> f64 {
+    mean.thousandths() as f64 / 1000.0
+}
