@@ -28,7 +28,7 @@ Examples:
   wasmouse build module.wasm           wraps a core module of any language
 
 The wasm target is added with rustup where it is missing; where rustup cannot
-fetch it, a packaged compiler (Debian: rustc-web, rust-web-src, lld) is used.";
+fetch it, a packaged compiler (Debian: rustc-web, rust-web-src, lld-22) is used.";
 
 /// Build a robot crate, or wrap a core module, into a component.
 ///

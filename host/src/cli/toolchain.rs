@@ -17,7 +17,7 @@ pub const WASM_TARGET: &str = "wasm32-unknown-unknown";
 /// How a person gets the target, in both ways.
 const INSTALL_HINT: &str = "\
 with rustup:             rustup target add wasm32-unknown-unknown
-on Debian or Ubuntu:     apt-get install --no-install-recommends rustc-web rust-web-src lld
+on Debian or Ubuntu:     apt-get install --no-install-recommends rustc-web rust-web-src lld-22
                          (a packaged compiler is found by itself then)";
 
 /// A compiler outside rustup that can build for [`WASM_TARGET`].
