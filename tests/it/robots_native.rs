@@ -97,7 +97,7 @@ fn any_walls(dimension: u32, share: u32, random: &mut Random) -> String {
     // By hand, because the host prints only mazes with a start and a goal.
     let mut text = dimension.to_string();
     for (index, &cell) in cells.iter().enumerate() {
-        let first = index as u32 % dimension == 0;
+        let first = (index as u32).is_multiple_of(dimension);
         text.push(if first { '\n' } else { ',' });
         text.push_str(&walls.value(cell).to_string());
     }
