@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 ///
 /// The tests are a package of their own, so cargo does not say where it is, nor
 /// does it build it for `cargo test -p wasmouse-tests` alone.
-pub fn wasmouse() -> Command {
+pub fn path() -> PathBuf {
     let test = std::env::current_exe().expect("a running program has a path");
     let name = format!("wasmouse{}", std::env::consts::EXE_SUFFIX);
     let path: PathBuf = test
@@ -20,7 +20,12 @@ pub fn wasmouse() -> Command {
         "no `{}`: build it with `cargo build --workspace --bins`, or run `cargo xtask test`",
         path.display()
     );
-    Command::new(path)
+    path
+}
+
+/// A call of the binary.
+pub fn wasmouse() -> Command {
+    Command::new(path())
 }
 
 /// Runs a command that has to succeed and returns its standard output.

@@ -10,6 +10,8 @@ mod formats;
 
 /// The prebuilt robots against their sources and their manifest.
 mod prebuilt;
+/// The README's tutorial and examples, run as they stand there.
+mod readme;
 /// The example robots, natively, in mazes of every size and shape.
 mod robots_native;
 /// The SDK's testing arena against the recorded vectors and the host's simulation.
@@ -18,7 +20,5 @@ mod sdk_arena;
 mod shared;
 /// Optimal paths and the floor of the official mazes.
 mod solver;
-/// `wasmouse new`, `build` and native tests of a new robot.
-mod tutorial;
 /// The hash of the WIT beside its history.
 mod wit;

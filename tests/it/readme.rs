@@ -1,0 +1,84 @@
+//! The README: its tutorial and its examples are run as they stand there.
+
+use std::env;
+use std::path::Path;
+use std::process::Command;
+
+use crate::binary;
+
+const README: &str = include_str!("../../README.md");
+
+/// The shell blocks of the README with this word behind `sh`.
+fn blocks(kind: &str) -> Vec<&'static str> {
+    let opening = format!("```sh {kind}\n");
+    README
+        .split(&opening)
+        .skip(1)
+        .map(|rest| rest.split("```").next().expect("split yields one part"))
+        .collect()
+}
+
+/// Runs a script with `wasmouse` on the path and returns what it printed.
+fn run(script: &str, folder: &Path) -> String {
+    let wasmouse = binary::path();
+    let bin = wasmouse.parent().expect("the binary is in a folder");
+    let old = env::var_os("PATH").unwrap_or_default();
+    let paths = std::iter::once(bin.to_owned()).chain(env::split_paths(&old));
+    let path = env::join_paths(paths).expect("no colon in the paths");
+    let output = Command::new("sh")
+        .args(["-euc", script])
+        .current_dir(folder)
+        .env("PATH", path)
+        .env("WASMOUSE_CACHE", folder.join("cache"))
+        // The target folder of this repository may be in use by the cargo that
+        // runs this test.
+        .env("CARGO_TARGET_DIR", folder.join("target"))
+        .output()
+        .expect("a shell");
+    let stdout = String::from_utf8_lossy(&output.stdout).into_owned();
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{script}\n{stdout}\n{stderr}");
+    stdout
+}
+
+#[test]
+fn the_tutorial_works_to_the_letter() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let blocks = blocks("tutorial");
+    assert!(blocks.len() >= 2, "the README has its tutorial");
+    let printed: Vec<String> = blocks
+        .iter()
+        .map(|block| run(block, folder.path()))
+        .collect();
+    let score = printed[0].lines().find(|line| line.contains("my-robot  "));
+    let score = score.expect("a line with the match");
+    assert!(score.contains("finished"), "{score}");
+    assert!(printed[1].contains("20 of 20"), "{}", printed[1]);
+    assert!(printed[1].contains("admitted  yes"), "{}", printed[1]);
+    assert!(folder.path().join("result.html").is_file());
+
+    // The project's own test, which needs no WebAssembly.
+    let test = "cd my-robot && cargo test";
+    assert!(run(test, folder.path()).contains("finishes_the_first_maze ... ok"));
+}
+
+#[test]
+fn the_examples_work_to_the_letter() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let blocks = blocks("example");
+    assert!(blocks.len() >= 2, "the README has examples");
+    for block in blocks {
+        run(block, folder.path());
+    }
+    assert!(folder.path().join("results.json").is_file());
+}
+
+#[test]
+fn the_first_command_of_the_readme_is_the_demo() {
+    assert!(README.contains("```sh\ncargo run --release -- demo\n```"));
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let printed = run("wasmouse demo", folder.path());
+    assert!(printed.contains(" 1      flood "), "{printed}");
+    assert!(printed.contains("The best run: `flood`"), "{printed}");
+    assert!(folder.path().join("wasmouse-demo.html").is_file());
+}
