@@ -1,7 +1,7 @@
 //! Runs the `wasmouse` binary that belongs to these tests.
 
 use std::path::PathBuf;
-use std::process::{Command, Output};
+use std::process::Command;
 
 /// The binary beside the folder of this test program: `target/PROFILE/wasmouse`.
 ///
@@ -26,17 +26,4 @@ pub fn path() -> PathBuf {
 /// A call of the binary.
 pub fn wasmouse() -> Command {
     Command::new(path())
-}
-
-/// Runs a command that has to succeed and returns its standard output.
-#[track_caller]
-pub fn stdout_of(command: &mut Command) -> String {
-    let output: Output = command.output().expect("the program can be run");
-    let stderr = String::from_utf8_lossy(&output.stderr);
-    assert!(
-        output.status.success(),
-        "{command:?} ended with {}:\n{stderr}",
-        output.status
-    );
-    String::from_utf8(output.stdout).expect("standard output is text")
 }

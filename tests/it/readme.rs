@@ -77,7 +77,13 @@ fn the_examples_work_to_the_letter() {
 fn the_first_command_of_the_readme_is_the_demo() {
     assert!(README.contains("```sh\ncargo run --release -- demo\n```"));
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let printed = run("wasmouse demo", folder.path());
+    let output = binary::wasmouse()
+        .arg("demo")
+        .current_dir(folder.path())
+        .output()
+        .expect("the program can be run");
+    assert!(output.status.success(), "{output:?}");
+    let printed = String::from_utf8_lossy(&output.stdout);
     assert!(printed.contains(" 1      flood "), "{printed}");
     assert!(printed.contains("The best run: `flood`"), "{printed}");
     assert!(folder.path().join("wasmouse-demo.html").is_file());
