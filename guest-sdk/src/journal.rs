@@ -5,8 +5,8 @@
 //! arena while one is playing, and do nothing otherwise. No call returns
 //! anything, so the journal cannot influence a match.
 //!
-//! Every call costs fuel (200, plus 1 per byte of text). Prefer fixed texts:
-//! `format!` brings about 10 KB of formatting code into the component.
+//! Every call costs fuel (200, plus 1 per byte of text). Prefer fixed texts: making
+//! a text with `format!` costs more fuel than telling it.
 
 pub use crate::bindings::wasmouse::robot::journal::{Belief, Color, Level};
 use crate::{Cell, Heading};

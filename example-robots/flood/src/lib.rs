@@ -32,6 +32,8 @@ pub struct Flood {
     tracker: Tracker,
     /// The search that the robot drives by.
     to_goal: Search,
+    /// The next pose on a route of that search that is known to be whole.
+    on_route: Option<Pose>,
     /// For all other questions.
     questions: Search,
     goal: CellSet,
@@ -50,6 +52,7 @@ impl Robot for Flood {
         Self {
             tracker: Tracker::new(briefing),
             to_goal: Search::new(briefing.dimension, briefing.longest_move),
+            on_route: None,
             questions: Search::new(briefing.dimension, briefing.longest_move),
             goal: CellSet::from(briefing.goal),
             explores_on,
@@ -57,13 +60,17 @@ impl Robot for Flood {
     }
 
     fn next_move(&mut self, sensors: Sensors) -> Action {
-        self.tracker.observe(sensors);
+        let news = self.tracker.observe(sensors);
+        if news.closed > 0 {
+            self.on_route = None;
+        }
         if self.tracker.run() == Run::Speed {
             return self.drive_to_goal(View::Pessimistic);
         }
         if !self.tracker.may_reset() {
             return self.drive_to_goal(View::Optimistic);
         }
+        self.on_route = None;
         match self.next_question() {
             Some(question) => self.look_into(question),
             None => self.tracker.reset(),
@@ -83,10 +90,15 @@ impl Flood {
     fn drive_to_goal(&mut self, view: View) -> Action {
         let pose = self.tracker.pose();
         let passages = self.tracker.map().passages(view);
-        let hop = self.to_goal.first_hop(passages, pose).or_else(|| {
+        let mut hop = match self.on_route {
+            Some(expected) if expected == pose => self.to_goal.route(passages, pose).next(),
+            _ => self.to_goal.first_hop(passages, pose),
+        };
+        if hop.is_none() {
             self.to_goal.fill_until(passages, &self.goal, pose.cell);
-            self.to_goal.route(passages, pose).next()
-        });
+            hop = self.to_goal.route(passages, pose).next();
+        }
+        self.on_route = hop.and_then(|hop| pose.hopped(hop));
         self.drive(hop)
     }
 

@@ -5,6 +5,10 @@
 //! heading never matters). Layers grow as bits, a row at a time; a search
 //! allocates nothing.
 
+mod packed;
+
+use packed::Board;
+
 use crate::geometry::DIMENSION_MAX;
 use crate::passages::{Bits, ROWS, bit, row};
 use crate::{Cell, CellSet, Heading, Passages, Pose, Turn};
@@ -156,13 +160,31 @@ impl Search {
             ahead.opposite(),
         ];
         order.into_iter().find_map(|heading| {
-            let clear = passages.clear_cells(pose.cell, heading, self.longest_move);
-            let longest = (1..=clear).rev().find(|&cells| {
-                let there = pose.cell.toward(heading, cells);
-                there.and_then(|it| self.steps(it)) == Some(goal)
-            });
-            longest.map(|cells| Hop { heading, cells })
+            let cells = self.longest_hop(passages, pose.cell, heading, goal)?;
+            Some(Hop { heading, cells })
         })
+    }
+
+    /// The longest drive in that direction that ends `goal` steps from a target.
+    fn longest_hop(
+        &self,
+        passages: &Passages,
+        from: Cell,
+        heading: Heading,
+        goal: u32,
+    ) -> Option<u32> {
+        let mut at = from;
+        let mut longest = None;
+        for cells in 1..=self.longest_move {
+            if !passages.is_open(at, heading) {
+                break;
+            }
+            at = at.toward(heading, 1)?;
+            if self.steps(at) == Some(goal) {
+                longest = Some(cells);
+            }
+        }
+        longest
     }
 
     fn search(&mut self, passages: &Passages, targets: &CellSet, from: Option<Cell>) {
@@ -170,6 +192,33 @@ impl Search {
             passages.dimension, self.dimension,
             "the passages are of another dimension"
         );
+        if self.dimension <= packed::DIMENSION_MAX {
+            self.search_packed(passages, targets, from);
+        } else {
+            self.search_rows(passages, targets, from);
+        }
+    }
+
+    fn search_packed(&mut self, passages: &Passages, targets: &CellSet, from: Option<Cell>) {
+        let walls = packed::Walls {
+            right: Board::pack(&passages.right),
+            up: Board::pack(&passages.up),
+        };
+        let columns = u64::MAX >> (DIMENSION_MAX - self.dimension);
+        let mut rows = [0; ROWS];
+        for y in 0..self.dimension {
+            rows[row(y)] = targets.rows[row(y)] & columns;
+        }
+        let targets = Board::pack(&rows);
+        let stop = from.map_or(CellSet::new(), CellSet::from);
+        let stop = Board::pack(&stop.rows);
+        let distances = &mut self.steps;
+        let visit = |x, y, steps| distances[y * ROWS + x] = steps;
+        let reached = packed::spread(&walls, targets, stop, self.longest_move, visit);
+        reached.unpack(&mut self.reached);
+    }
+
+    fn search_rows(&mut self, passages: &Passages, targets: &CellSet, from: Option<Cell>) {
         let columns = u64::MAX >> (DIMENSION_MAX - self.dimension);
         for y in 0..self.dimension {
             self.reached[row(y)] = 0;
