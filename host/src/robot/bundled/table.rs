@@ -8,7 +8,7 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
         description: "Lobato's count expansion, from the same report as the random walk.",
         settings: &[],
         component: include_bytes!("../../../../example-robots/prebuilt/count-expansion.wasm"),
-        sha256: "48baf127f9b9411e22348a44015398372bcec33370d730b0ae607a4fe498c44b",
+        sha256: "0e34e69e5a839ea992bd5755de0fcf46447b07cdc8041ef900bfaa40d5f505b0",
     },
     BundledRobot {
         name: "dfs",
@@ -26,7 +26,7 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/dfs.wasm"),
-        sha256: "84c06887949108976a92862e01b807c72411111474d15fbe1117affd430b2ff2",
+        sha256: "c5053bbdb78567f7dab8ab40f5c82aa12e4303fe76f77ee0f4e495e3bdb0cdd0",
     },
     BundledRobot {
         name: "flood",
@@ -44,14 +44,14 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/flood.wasm"),
-        sha256: "67df2501a3c61328c04c9241c3fbac32f5b37213c7a766c62ee3f5b45f3b045b",
+        sha256: "706b937097ba1fb5a21371160d8585681f2ccd8d0a840b1c95dc23079098c53f",
     },
     BundledRobot {
         name: "random",
         description: "Lobato's random walk, the robot to be beaten.",
         settings: &[],
         component: include_bytes!("../../../../example-robots/prebuilt/random.wasm"),
-        sha256: "c4e7a7f3c3029045e1534bbccd08c72edebce08c83be046708ab8ed021be1a61",
+        sha256: "2a338ee9e2da38a43e56a3a56e4fa35df416d7d5190f4c15e56aa8bd0a6a5a35",
     },
     BundledRobot {
         name: "wall-follower",
@@ -69,6 +69,6 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/wall-follower.wasm"),
-        sha256: "692e994b01f09b78abc7607c0a7a48bdba8482226400cfea6e1c376be1036f09",
+        sha256: "2b38f4dd7c18683c6e6197ec4f5e8cdad6110cf3c88f9bca2e9d7238ff6f56a4",
     },
 ];
