@@ -43,24 +43,26 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<Exit, Failure> {
+    output::check(&args.html, Existing::Replace)?;
     let host = args.setup.host()?;
     let contest = contest(args, &host)?;
-    let results = run::play(&contest, &host, args.setup.threads())?;
-    let standings = standings(&contest, &results);
+    let played = run::play(&contest, &host, args.setup.threads())?;
+    let results = &played.results;
+    let standings = standings(&contest, results);
 
     let lines = terminal::table_lines(args.ascii);
     output::print(&table::standings(&contest, &standings, lines))?;
-    print_best_run(args, &contest, &host, &results, &standings)?;
-    run::tell_failures(&contest, &results);
+    print_best_run(args, &contest, &host, results, &standings)?;
+    run::tell_failures(&contest, results);
     page::write(
         &args.html,
         Existing::Replace,
         &contest,
         &host,
-        &results,
+        results,
         &standings,
     )?;
-    Ok(run::exit(&contest, &results))
+    Ok(run::exit(&contest, &played))
 }
 
 fn contest(args: &Args, host: &Host) -> Result<Contest, Failure> {

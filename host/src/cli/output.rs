@@ -43,12 +43,9 @@ pub enum Existing {
 /// When the file is there already and is to be kept, when a folder or a device
 /// has its name, or when it cannot be written.
 pub fn save(path: &Path, bytes: &[u8], existing: Existing) -> Result<(), Failure> {
-    let target = target(path, existing)?;
+    let target = check(path, existing)?;
     let failed = |error: io::Error| failure(path, &error);
-    let folder = match target.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
+    let folder = folder(&target);
     let mut builder = tempfile::Builder::new();
     #[cfg(unix)]
     {
@@ -65,11 +62,35 @@ pub fn save(path: &Path, bytes: &[u8], existing: Existing) -> Result<(), Failure
     .map_err(|error| failed(error.error))
 }
 
-/// The file to write: behind symbolic links, so that they stay, and never a
-/// folder or a device, which a rename would destroy.
-fn target(path: &Path, existing: Existing) -> Result<PathBuf, Failure> {
+fn folder(target: &Path) -> &Path {
+    match target.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// The file that [`save`] would write: behind symbolic links, so that they stay,
+/// and never a folder or a device, which a rename would destroy.
+///
+/// Called before long work, so that it is not lost over a name.
+///
+/// # Errors
+///
+/// As [`save`], as far as it can be known beforehand.
+pub fn check(path: &Path, existing: Existing) -> Result<PathBuf, Failure> {
     match fs::metadata(path) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(path.to_owned()),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            let folder = folder(path);
+            if folder.is_dir() {
+                Ok(path.to_owned())
+            } else {
+                Err(Failure::input(format!(
+                    "failed to write `{}`: there is no folder `{}`",
+                    path.display(),
+                    folder.display()
+                )))
+            }
+        }
         Err(error) => Err(failure(path, &error)),
         Ok(metadata) if !metadata.is_file() => Err(Failure::input(format!(
             "failed to write `{}`: not a regular file",

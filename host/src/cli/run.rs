@@ -13,11 +13,12 @@ use super::output::{self, Existing};
 use super::robots::{self, Specification};
 use super::setup::SetupArgs;
 use super::{interrupt, journal, page, terminal, watch};
-use crate::contest::{Contest, ContestMaze, Entrant, MatchResult, standings};
-use crate::maze::bundled;
+use crate::contest::{Contest, ContestMaze, Entrant, MatchResult, Played, standings};
+use crate::maze::bundled as bundled_mazes;
 use crate::report::result::ContestReport;
 use crate::report::table;
 use crate::report::visible;
+use crate::robot::bundled::bundled as bundled_robots;
 use crate::robot::{Host, Verdict};
 
 const EXAMPLES: &str = "\
@@ -93,6 +94,9 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<Exit, Failure> {
     let (specifications, maze_specs) = args.sort_arguments()?;
+    if let Some(path) = &args.html {
+        output::check(path, args.existing())?;
+    }
     let legality = Legality::from_flag(args.lenient);
     let mazes = mazes::load(&maze_specs, legality)?;
     let host = args.setup.host()?;
@@ -105,43 +109,52 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         seeds: args.seeds()?,
         rules: args.setup.rules,
     };
-    let results = play(&contest, &host, args.setup.threads())?;
-    if args.watch && !results.is_empty() {
+    let played = play(&contest, &host, args.setup.threads())?;
+    if args.watch && !played.results.is_empty() {
         let delay = Duration::from_millis(args.delay);
-        watch::watch(&contest, &host, &results, delay, args.ascii)?;
+        watch::watch(&contest, &host, &played.results, delay, args.ascii)?;
     }
     if args.log {
-        journal::print(&contest, &host, &results)?;
+        journal::print(&contest, &host, &played.results)?;
     }
-    args.report(&contest, &host, &results)?;
-    Ok(exit(&contest, &results))
+    args.report(&contest, &host, &played)?;
+    Ok(exit(&contest, &played))
 }
 
 /// Plays a contest with a progress bar on a terminal; Ctrl-C ends it early.
-pub fn play(contest: &Contest, host: &Host, threads: usize) -> Result<Vec<MatchResult>, Failure> {
+pub fn play(contest: &Contest, host: &Host, threads: usize) -> Result<Played, Failure> {
     let cancelled: &AtomicBool = interrupt::listen()?;
     let total = u64::try_from(contest.matches()).unwrap_or(u64::MAX);
     let bar = ProgressBar::new(total).with_style(
         ProgressStyle::with_template("{bar:40} {pos}/{len} matches, {per_sec}, {eta} left")
             .expect("a constant template"),
     );
-    let results = contest
+    let played = contest
         .run(host, threads, cancelled, &|| bar.inc(1))
         .map_err(Failure::host);
     bar.finish_and_clear();
-    results
+    played
 }
 
-/// The exit code that goes with these results; says so when they are not all.
-pub fn exit(contest: &Contest, results: &[MatchResult]) -> Exit {
-    let missing = contest.matches() - results.len();
+/// The exit code that goes with what was played; tells on standard error what
+/// was not.
+pub fn exit(contest: &Contest, played: &Played) -> Exit {
+    for failed in &played.failed {
+        let robot = visible(&contest.entrants[failed.entrant].name);
+        let maze = visible(&contest.mazes[failed.maze].name);
+        let (seed, error) = (failed.seed, &failed.error);
+        anstream::eprintln!("error: `{robot}` in `{maze}`, seed {seed}, was not played: {error}");
+    }
+    let missing = contest.matches() - played.results.len() - played.failed.len();
     if missing > 0 {
         anstream::eprintln!("interrupted: {missing} matches were not played");
         return Exit::Interrupted;
     }
     let is_fault = |result: &MatchResult| matches!(result.outcome.verdict, Verdict::Fault(_));
     let is_refused = |entrant: &Entrant| entrant.admission.is_err();
-    if contest.entrants.iter().any(is_refused) || results.iter().any(is_fault) {
+    if !played.failed.is_empty() {
+        Exit::Host
+    } else if contest.entrants.iter().any(is_refused) || played.results.iter().any(is_fault) {
         Exit::Robot
     } else {
         Exit::Success
@@ -193,14 +206,27 @@ impl Args {
         }
         mazes.extend(self.mazes.iter().cloned());
         if robots.is_empty() {
-            return Err(Failure::usage("no robot is given").hint(
-                "name a bundled robot (`wasmouse robots` lists them) or a file that ends in .wasm",
-            ));
+            return Err(self.no_robot());
         }
         if mazes.is_empty() {
-            mazes.extend(bundled().iter().map(|maze| maze.name.to_owned()));
+            mazes.extend(bundled_mazes().iter().map(|maze| maze.name.to_owned()));
         }
         Ok((robots, mazes))
+    }
+
+    fn no_robot(&self) -> Failure {
+        let message = match self.arguments.first() {
+            None => "no robot is given".to_owned(),
+            Some(argument) => format!(
+                "no robot is given: `{}` is neither a bundled robot nor a file that ends in .wasm",
+                visible(argument)
+            ),
+        };
+        let names: Vec<&str> = bundled_robots().iter().map(|robot| robot.name).collect();
+        Failure::usage(message).hint(format!(
+            "bundled robots are {}; --robot takes a file of any name",
+            names.join(", ")
+        ))
     }
 
     fn seeds(&self) -> Result<Vec<u64>, Failure> {
@@ -215,23 +241,11 @@ impl Args {
         Ok((self.seed..=last).collect())
     }
 
-    fn report(
-        &self,
-        contest: &Contest,
-        host: &Host,
-        results: &[MatchResult],
-    ) -> Result<(), Failure> {
+    fn report(&self, contest: &Contest, host: &Host, played: &Played) -> Result<(), Failure> {
+        let results = &played.results;
         let standings = standings(contest, results);
-        if let Some(path) = &self.html {
-            let existing = if self.force {
-                Existing::Replace
-            } else {
-                Existing::Keep
-            };
-            page::write(path, existing, contest, host, results, &standings)?;
-        }
         if self.json {
-            return output::print(&ContestReport::new(contest, results, &standings).to_json());
+            return output::print(&ContestReport::new(contest, played, &standings).to_json());
         }
         let lines = terminal::table_lines(self.ascii);
         if !results.is_empty() {
@@ -244,6 +258,17 @@ impl Args {
             ))?;
         }
         tell_failures(contest, results);
+        if let Some(path) = &self.html {
+            page::write(path, self.existing(), contest, host, results, &standings)?;
+        }
         Ok(())
+    }
+
+    const fn existing(&self) -> Existing {
+        if self.force {
+            Existing::Replace
+        } else {
+            Existing::Keep
+        }
     }
 }

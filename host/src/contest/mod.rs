@@ -10,5 +10,7 @@ mod run;
 mod standings;
 
 pub use mean::Mean;
-pub use run::{Contest, ContestError, ContestMaze, Entrant, MatchResult, Progress};
+pub use run::{
+    Contest, ContestError, ContestMaze, Entrant, FailedMatch, MatchResult, Played, Progress,
+};
 pub use standings::{Standing, standings};

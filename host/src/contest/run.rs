@@ -92,15 +92,35 @@ pub struct MatchResult {
     pub journal: (u64, u64),
 }
 
+/// A match that the host could not play, even when tried again. It says nothing
+/// about the robot, counts for nothing, and has to be played another time.
+#[derive(Debug)]
+pub struct FailedMatch {
+    /// Index into [`Contest::entrants`].
+    pub entrant: usize,
+    /// Index into [`Contest::mazes`].
+    pub maze: usize,
+    /// The seed.
+    pub seed: u64,
+    /// What went wrong.
+    pub error: HostError,
+}
+
+/// What has been played of a contest, in the contest's order.
+#[derive(Debug, Default)]
+pub struct Played {
+    /// The results.
+    pub results: Vec<MatchResult>,
+    /// The failures of the host.
+    pub failed: Vec<FailedMatch>,
+}
+
 /// Told about every match as it ends, from any thread, in any order.
 pub type Progress<'a> = dyn Fn() + Sync + 'a;
 
 /// Why a contest did not end.
 #[derive(Debug, thiserror::Error)]
 pub enum ContestError {
-    /// The host failed.
-    #[error(transparent)]
-    Host(#[from] HostError),
     /// The threads could not be started.
     #[error("failed to start {threads} threads: {reason}")]
     Threads {
@@ -121,20 +141,19 @@ impl Contest {
         admitted.count() * self.mazes.len() * self.seeds.len()
     }
 
-    /// Plays all matches on `threads` threads (at least 1) and returns their
-    /// results in the contest's order. When `cancelled` becomes true, matches
-    /// that have not begun are left out.
+    /// Plays all matches on `threads` threads (at least 1). When `cancelled`
+    /// becomes true, matches that have not begun are left out.
     ///
     /// # Errors
     ///
-    /// With the first failure of the host.
+    /// When the threads cannot be started.
     pub fn run(
         &self,
         host: &Host,
         threads: usize,
         cancelled: &AtomicBool,
         progress: &Progress<'_>,
-    ) -> Result<Vec<MatchResult>, ContestError> {
+    ) -> Result<Played, ContestError> {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads.max(1))
             .stack_size(STACK_BYTES)
@@ -145,20 +164,45 @@ impl Contest {
                 reason: error.to_string(),
             })?;
         let plan = self.plan();
-        pool.install(|| {
+        let played: Vec<Result<MatchResult, FailedMatch>> = pool.install(|| {
             plan.into_par_iter()
                 .map_init(Recorder::default, |recorder, planned| {
                     if cancelled.load(Ordering::Relaxed) {
-                        return Ok(None);
+                        return None;
                     }
-                    let result = self.play(host, planned, recorder)?;
+                    let played = self.play_twice(host, &planned, recorder);
                     progress();
-                    Ok(Some(result))
+                    Some(played)
                 })
-                .collect::<Result<Vec<_>, HostError>>()
-        })
-        .map(|results| results.into_iter().flatten().collect())
-        .map_err(ContestError::from)
+                .flatten()
+                .collect()
+        });
+        let mut all = Played::default();
+        for match_played in played {
+            match match_played {
+                Ok(result) => all.results.push(result),
+                Err(failed) => all.failed.push(failed),
+            }
+        }
+        Ok(all)
+    }
+
+    /// Plays a match, and once more when the host fails: most failures, such as
+    /// a machine that stood still, do not repeat.
+    fn play_twice(
+        &self,
+        host: &Host,
+        planned: &Planned<'_>,
+        recorder: &mut Recorder,
+    ) -> Result<MatchResult, FailedMatch> {
+        self.play(host, planned, recorder)
+            .or_else(|_| self.play(host, planned, recorder))
+            .map_err(|error| FailedMatch {
+                entrant: planned.entrant,
+                maze: planned.maze,
+                seed: planned.seed,
+                error,
+            })
     }
 
     /// Plays the match of a result again and leaves its trace and journal in
@@ -212,10 +256,10 @@ impl Contest {
     fn play(
         &self,
         host: &Host,
-        planned: Planned<'_>,
+        planned: &Planned<'_>,
         recorder: &mut Recorder,
     ) -> Result<MatchResult, HostError> {
-        let Planned {
+        let &Planned {
             robot,
             entrant,
             maze,

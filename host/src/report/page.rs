@@ -59,7 +59,7 @@ pub fn page(
                     " version " (contest.rules.version)
                 }
                 @if !complete {
-                    p { strong { "Interrupted: " (contest.matches() - results.len()) " matches were not played." } }
+                    p { strong { "Not complete: " (contest.matches() - results.len()) " matches were not played." } }
                 }
                 h2 { "Standings" }
                 p { "More finished matches rank higher; among as many, the lower mean score. "

@@ -19,6 +19,7 @@
 //!     "journal_entries": 0, "journal_dropped": 0,
 //!     "trace_sha256": "..."
 //!   }],
+//!   "failed": [],
 //!   "standings": [{
 //!     "rank": 1, "robot": "flood", "matches": 1, "finished": 1, "goal_reached": 0,
 //!     "faults": 0, "mean_score": 22.1, "mean_regret": 4.5
@@ -26,13 +27,18 @@
 //! }
 //! ```
 //!
+//! A match in `failed` (`robot`, `maze`, `seed`, `reason`) could not be played
+//! because the host failed; it says nothing about the robot.
+//!
 //! Steps are counted in steps, fuel in wasmtime's units, scores in steps with
 //! three decimals. The same contest on the same engine gives the same bytes,
 //! whatever the number of threads.
 
 use serde::Serialize;
 
-use crate::contest::{Contest, ContestMaze, Entrant, MatchResult, Mean, Standing};
+use crate::contest::{
+    Contest, ContestMaze, Entrant, FailedMatch, MatchResult, Mean, Played, Standing,
+};
 use crate::robot::{Digest, Fault, Verdict, engine_id};
 use crate::sim::{Ruleset, Score};
 
@@ -46,22 +52,20 @@ pub struct ContestReport<'a> {
     wasmouse: &'static str,
     engine: String,
     ruleset: WireRuleset,
-    /// False when the contest was interrupted: `matches` then holds what had
-    /// been played.
+    /// False when the contest was interrupted or the host failed in a match:
+    /// `matches` then holds what has been played.
     complete: bool,
     robots: Vec<WireRobot<'a>>,
     mazes: Vec<WireMaze<'a>>,
     matches: Vec<WireMatch<'a>>,
+    failed: Vec<WireFailed<'a>>,
     standings: Vec<WireStanding<'a>>,
 }
 
 impl<'a> ContestReport<'a> {
     /// The document for a contest and what has been played of it.
-    pub fn new(
-        contest: &'a Contest,
-        results: &'a [MatchResult],
-        standings: &'a [Standing],
-    ) -> Self {
+    pub fn new(contest: &'a Contest, played: &'a Played, standings: &'a [Standing]) -> Self {
+        let results = &played.results;
         Self {
             schema: SCHEMA,
             wasmouse: env!("CARGO_PKG_VERSION"),
@@ -73,6 +77,11 @@ impl<'a> ContestReport<'a> {
             matches: results
                 .iter()
                 .map(|result| WireMatch::new(contest, result))
+                .collect(),
+            failed: played
+                .failed
+                .iter()
+                .map(|failed| WireFailed::new(contest, failed))
                 .collect(),
             standings: standings
                 .iter()
@@ -236,6 +245,25 @@ impl<'a> WireMatch<'a> {
             journal_entries,
             journal_dropped,
             trace_sha256: result.trace.hex(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct WireFailed<'a> {
+    robot: &'a str,
+    maze: &'a str,
+    seed: u64,
+    reason: String,
+}
+
+impl<'a> WireFailed<'a> {
+    fn new(contest: &'a Contest, failed: &FailedMatch) -> Self {
+        Self {
+            robot: &contest.entrants[failed.entrant].name,
+            maze: &contest.mazes[failed.maze].name,
+            seed: failed.seed,
+            reason: failed.error.to_string(),
         }
     }
 }

@@ -99,7 +99,7 @@ impl Host {
         let size = u64::try_from(bytes.len()).unwrap_or(u64::MAX);
         let max = self.limits.component_bytes_max;
         if size > max {
-            return Err(Refusal::TooLarge { bytes: size, max });
+            return Err(Refusal::TooLarge { max });
         }
         let kind = shape::binary_kind(bytes)?;
         let bytes = match kind {

@@ -9,10 +9,8 @@ pub enum Refusal {
     #[error("the file is empty")]
     Empty,
     /// The file is larger than the ruleset allows.
-    #[error("the file has {bytes} bytes, and the limit is {max}")]
+    #[error("the file has more than {max} bytes")]
     TooLarge {
-        /// Its size in bytes.
-        bytes: u64,
         /// The limit in bytes.
         max: u64,
     },
