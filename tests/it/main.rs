@@ -5,6 +5,8 @@
 
 /// The `wasmouse` binary.
 mod binary;
+/// The rules: recorded games and games written by hand.
+mod conformance;
 /// Maze files: reading, round trips, and a survey counted in another way.
 mod formats;
 
