@@ -7,13 +7,18 @@
 mod binary;
 /// The rules: recorded games and games written by hand.
 mod conformance;
+/// The same bytes from the same contest.
+mod determinism;
 /// Maze files: reading, round trips, and a survey counted in another way.
 mod formats;
-
+/// Robots in WebAssembly text, and a good one beside them.
+mod hostile;
 /// The prebuilt robots against their sources and their manifest.
 mod prebuilt;
 /// The README's tutorial and examples, run as they stand there.
 mod readme;
+/// Files that are no robots, and the reasons.
+mod refusals;
 /// The example robots, natively, in mazes of every size and shape.
 mod robots_native;
 /// The SDK's testing arena against the recorded vectors and the host's simulation.
@@ -22,5 +27,7 @@ mod sdk_arena;
 mod shared;
 /// Optimal paths and the floor of the official mazes.
 mod solver;
+/// Robots that fail, and the verdicts on them.
+mod verdicts;
 /// The hash of the WIT beside its history.
 mod wit;

@@ -1,6 +1,6 @@
 //! [`Fault`]: how a robot's own doing ends a match, as data.
 //!
-//! The only place that looks into errors of wasmtime. What is not the robot's
+//! The only place that looks into errors of a call by wasmtime. What is not the robot's
 //! doing becomes a [`HostError`](super::HostError) and never a verdict.
 
 use std::fmt;

@@ -10,7 +10,7 @@ use super::componentize::{BinaryKind, componentize};
 use super::guest::{self, Guest};
 use super::refusal::CONTROLLER;
 use super::shape::{self, Shape};
-use super::{Cache, Digest, HostError, Refusal, engine};
+use super::{Cache, Digest, HostError, Refusal, controller, engine, over_limit};
 use crate::sim::Limits;
 
 /// Everything that robots need to run in this process: one engine with its pool
@@ -127,12 +127,13 @@ impl Host {
 
     fn compile_now(&self, component: &[u8]) -> Result<Component, Refusal> {
         Component::from_binary(&self.engine, component)
-            .map_err(|error| Refusal::Invalid(format!("{error:#}")))
+            .map_err(|error| over_limit::refusal(&error, &self.limits))
     }
 
     fn link(&self, component: &Component) -> Result<RobotPre<Guest>, Refusal> {
         let wrong_type = |error: wasmtime::Error| Refusal::WrongType(format!("{error:#}"));
         let pre: InstancePre<Guest> = self.linker.instantiate_pre(component).map_err(wrong_type)?;
+        controller::check_types(component)?;
         RobotPre::new(pre).map_err(wrong_type)
     }
 }

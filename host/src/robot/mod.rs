@@ -11,6 +11,7 @@ pub mod componentize;
 
 mod bindings;
 mod cache;
+mod controller;
 mod digest;
 mod engine;
 mod error;
@@ -20,6 +21,7 @@ mod host;
 mod inspection;
 mod journal;
 mod limiter;
+mod over_limit;
 mod play;
 mod refusal;
 mod shape;

@@ -98,7 +98,9 @@ impl Refusal {
                  `export_robot!` in the crate's root"
             }
             Self::WrongType(_) => "rebuild it against this version's `wit/robot.wit`",
-            Self::OverLimit { .. } => "`wasmouse inspect FILE` lists what a component needs",
+            Self::OverLimit { .. } => {
+                "build it with fewer or smaller memories, tables and instances"
+            }
         }
     }
 }

@@ -1,0 +1,110 @@
+//! The same contest gives the same bytes: twice, on one thread or many, with
+//! robots compiled now or before.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+use wasmouse::maze;
+use wasmouse::robot::bundled::bundled;
+
+use crate::binary::{stdout_of, wasmouse};
+use crate::shared::shared;
+
+/// Every bundled robot, with each of its settings.
+fn robots() -> Vec<String> {
+    let specifications = bundled().iter().flat_map(|robot| {
+        let settings = robot.settings.iter();
+        let chosen = settings.map(|setting| format!("{}:{}", robot.name, setting.value));
+        let plain = robot.settings.is_empty().then(|| robot.name.to_owned());
+        plain.into_iter().chain(chosen)
+    });
+    specifications.collect()
+}
+
+/// The official mazes; none where the shared material is absent.
+fn official_mazes() -> Vec<PathBuf> {
+    let Some(shared) = shared() else {
+        return Vec::new();
+    };
+    ["test_maze_01", "test_maze_02", "test_maze_03"]
+        .map(|name| {
+            shared
+                .join("mazes/udacity")
+                .join(name)
+                .with_extension("txt")
+        })
+        .to_vec()
+}
+
+fn run_json(mazes: &[PathBuf], options: &[&str], cache: Option<&Path>) -> String {
+    let mut command = wasmouse();
+    command.args(["run", "--json"]).args(robots()).args(options);
+    for maze in mazes {
+        command.arg("--maze").arg(maze);
+    }
+    match cache {
+        Some(folder) => command.arg("--cache").arg(folder),
+        None => command.arg("--no-cache"),
+    };
+    stdout_of(&mut command)
+}
+
+#[test]
+fn a_contest_gives_the_same_bytes_however_it_is_run() {
+    let mut mazes: Vec<PathBuf> = maze::bundled()
+        .iter()
+        .map(|maze| maze.name.into())
+        .collect();
+    // One of them is bundled too; then it has two names and plays the same twice.
+    mazes.extend(official_mazes());
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let cache = folder.path().join("cache");
+    let expected = run_json(&mazes, &["--jobs", "1"], None);
+    for (name, jobs, cache) in [
+        ("a second time", "1", None),
+        ("8 threads", "8", None),
+        ("8 threads, cold cache", "8", Some(cache.as_path())),
+        ("8 threads, warm cache", "8", Some(&cache)),
+        ("1 thread, warm cache", "1", Some(&cache)),
+    ] {
+        let found = run_json(&mazes, &["--jobs", jobs], cache);
+        assert!(found == expected, "{name}: other bytes");
+    }
+    assert!(cache.read_dir().expect("a cache").count() >= bundled().len());
+
+    let report: Value = serde_json::from_str(&expected).expect("JSON");
+    let matches = report["matches"].as_array().expect("matches");
+    assert_eq!(matches.len(), mazes.len() * robots().len());
+    for played in matches {
+        assert!(played["steps_fuel"].as_u64() > Some(0), "{played}");
+    }
+}
+
+/// Each bundled robot gets a verdict in the official mazes, and flood finishes all
+/// three: with its first path, and with the best one.
+#[test]
+fn flood_finishes_the_official_mazes() {
+    let mazes = official_mazes();
+    if mazes.is_empty() {
+        return;
+    }
+    let report: Value = serde_json::from_str(&run_json(&mazes, &[], None)).expect("JSON");
+    let matches = report["matches"].as_array().expect("matches");
+    for played in matches {
+        let verdict = played["verdict"].as_str().expect("a verdict");
+        assert_ne!(verdict, "fault", "{played}");
+    }
+    for (robot, scores) in FLOOD_SCORES {
+        let found: Vec<f64> = matches
+            .iter()
+            .filter(|played| played["robot"] == robot)
+            .map(|played| played["score"].as_f64().expect("a finished match"))
+            .collect();
+        assert_eq!(found, scores, "{robot}");
+    }
+}
+
+const FLOOD_SCORES: [(&str, [f64; 3]); 2] = [
+    ("flood", [22.033, 30.267, 46.067]),
+    ("flood:1", [21.867, 28.433, 34.367]),
+];
