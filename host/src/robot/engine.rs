@@ -43,12 +43,14 @@ pub(super) const fn match_epochs_max() -> u64 {
 /// When the machine cannot give the address space for the pool, or the clock
 /// thread cannot be started.
 pub(super) fn new_engine(limits: &Limits, matches: u32) -> Result<Engine, HostError> {
-    let engine = Engine::new(&config(limits, matches)).map_err(HostError::engine)?;
+    let engine = Engine::new(&engine_config(limits, matches)).map_err(HostError::engine)?;
     start_clock(&engine)?;
     Ok(engine)
 }
 
-fn config(limits: &Limits, matches: u32) -> Config {
+/// The configuration of the engine of a host, for those who want to compare the
+/// host with wasmtime alone.
+pub fn engine_config(limits: &Limits, matches: u32) -> Config {
     let mut config = Config::new();
 
     // What ends a match. Fuel is exact and reproducible; epochs are the safety

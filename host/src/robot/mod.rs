@@ -28,7 +28,7 @@ mod shape;
 
 pub use cache::Cache;
 pub use digest::Digest;
-pub use engine::{ENGINE_REVISION, MATCH_SECONDS_MAX, WASMTIME_VERSION, engine_id};
+pub use engine::{ENGINE_REVISION, MATCH_SECONDS_MAX, WASMTIME_VERSION, engine_config, engine_id};
 pub use error::HostError;
 pub use fault::{Fault, FaultKind, FuelLimit};
 pub use host::{CacheUse, Host, Robot};

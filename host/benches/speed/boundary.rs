@@ -1,0 +1,174 @@
+//! The boundary between host and robot: a typed call by wasmtime alone, the same
+//! call as a step of a match, and a fresh instance up to its first answer.
+
+use std::hint::black_box;
+
+use criterion::{Criterion, Throughput};
+use wasmouse::maze::Maze;
+use wasmouse::robot::{Host, Recorder, Robot, engine_config};
+use wasmouse::sim::{Limits, Ruleset};
+use wasmtime::component::{Component, ComponentType, Lift, Linker, Lower, TypedFunc};
+use wasmtime::{Engine, Store};
+
+use super::stage;
+
+/// The readings of `wit/robot.wit`, declared again: the bare call shares nothing
+/// with the host but the configuration of the engine.
+#[derive(Clone, Copy, ComponentType, Lower)]
+#[component(record)]
+pub struct Readings {
+    left: u32,
+    front: u32,
+    right: u32,
+}
+
+#[derive(Clone, Copy, ComponentType, Lift)]
+#[component(enum)]
+#[repr(u8)]
+#[expect(dead_code, reason = "the robot makes them")]
+enum Turn {
+    #[component(name = "left")]
+    Left,
+    #[component(name = "straight")]
+    Straight,
+    #[component(name = "right")]
+    Right,
+}
+
+#[derive(Clone, Copy, ComponentType, Lift)]
+#[component(record)]
+#[expect(dead_code, reason = "only lifted")]
+struct Move {
+    turn: Turn,
+    advance: i8,
+}
+
+#[derive(Clone, Copy, ComponentType, Lift)]
+#[component(variant)]
+#[expect(dead_code, reason = "only lifted")]
+enum Action {
+    #[component(name = "move")]
+    Move(Move),
+    #[component(name = "reset")]
+    Reset,
+}
+
+/// A robot called by wasmtime alone: no limits, no simulation, fuel set once.
+pub struct Bare {
+    store: Store<()>,
+    next_move: TypedFunc<(Readings,), (Action,)>,
+}
+
+impl Bare {
+    /// An instance of the component, in an engine like the host's.
+    pub fn new(component: &[u8]) -> Self {
+        let engine = Engine::new(&engine_config(&Limits::default(), 1)).expect("the host's engine");
+        let component = Component::from_binary(&engine, component).expect("a component");
+        let mut store = Store::new(&engine, ());
+        store.set_fuel(u64::MAX).expect("fuel is on");
+        store.set_epoch_deadline(1);
+        let instance = Linker::new(&engine)
+            .instantiate(&mut store, &component)
+            .expect("a robot without a journal");
+        let controller = instance
+            .get_export_index(&mut store, None, "wasmouse:robot/controller@0.1.0")
+            .expect("a robot");
+        let next_move = instance
+            .get_export_index(&mut store, Some(&controller), "next-move")
+            .expect("a robot");
+        let next_move = instance
+            .get_typed_func(&mut store, next_move)
+            .expect("the signature of the contract");
+        Self { store, next_move }
+    }
+
+    /// One typed call for each of the readings.
+    pub fn answer(&mut self, readings: &[Readings]) {
+        for &readings in readings {
+            let answer = self.next_move.call(&mut self.store, (readings,));
+            black_box(&answer.expect("the robot answers"));
+        }
+    }
+}
+
+/// The smallest robot in the first maze, ready to be played.
+pub struct Drive {
+    host: Host,
+    robot: Robot,
+    maze: Maze,
+    rules: Ruleset,
+    recorder: Recorder,
+}
+
+impl Drive {
+    /// Admits the robot of that component.
+    pub fn new(component: &[u8]) -> Self {
+        let host = stage::host(1);
+        let robot = host.admit(component).expect("an admissible robot");
+        let (_, maze) = stage::match_mazes().swap_remove(0);
+        Self {
+            host,
+            robot,
+            maze,
+            rules: Ruleset::default(),
+            recorder: Recorder::default(),
+        }
+    }
+
+    /// The same with a budget of so many steps.
+    pub fn with_budget(self, budget: u32) -> Self {
+        let rules = Ruleset {
+            budget,
+            ..self.rules
+        };
+        Self { rules, ..self }
+    }
+
+    /// One match.
+    pub fn play(&mut self) {
+        let recorder = &mut self.recorder;
+        black_box(stage::play(
+            &self.host,
+            &self.robot,
+            &self.maze,
+            &self.rules,
+            recorder,
+        ));
+    }
+
+    /// What the robot saw in its last match.
+    pub fn readings(&self) -> Vec<Readings> {
+        let steps = self.recorder.trace.steps().iter();
+        let seen = steps.map(|step| Readings {
+            left: step.sensors.left.into(),
+            front: step.sensors.front.into(),
+            right: step.sensors.right.into(),
+        });
+        seen.collect()
+    }
+}
+
+/// `boundary/...`: times are for one step.
+pub fn bench(criterion: &mut Criterion) {
+    let driver = stage::driver();
+    let mut drive = Drive::new(&driver);
+    drive.play();
+    let readings = drive.readings();
+    let mut bare = Bare::new(&driver);
+
+    let mut group = criterion.benchmark_group("boundary");
+    group.throughput(Throughput::Elements(readings.len() as u64));
+    group.bench_function("1000 bare typed calls", |b| {
+        b.iter(|| bare.answer(&readings));
+    });
+    group.bench_function("1000 steps of a match", |b| b.iter(|| drive.play()));
+    group.finish();
+
+    let mut group = criterion.benchmark_group("first answer");
+    let mut smallest = Drive::new(&driver).with_budget(1);
+    group.bench_function("smallest robot", |b| b.iter(|| smallest.play()));
+    let flood = wasmouse::robot::bundled::find("flood").expect("a bundled robot");
+    let mut flood = Drive::new(flood.component).with_budget(1);
+    group.bench_function("flood", |b| b.iter(|| flood.play()));
+    group.finish();
+}

@@ -1,0 +1,157 @@
+//! The speed targets: measured, printed as a table, met or missed.
+//!
+//! Not criterion: a target is a ratio of two things, and those are timed in turns.
+//! A missed target is no failure, because a busy machine misses them too.
+
+use std::env;
+use std::hint::black_box;
+use std::time::Duration;
+
+use wasmouse::robot::{Recorder, bundled};
+use wasmouse::sim::{Ruleset, Trace};
+
+use super::boundary::{Bare, Drive};
+use super::pairs::{alone, side_by_side};
+use super::{native, process, stage};
+
+/// Matches after which the memory may not have grown.
+const MATCHES: u32 = 100_000;
+
+/// Whether this is a run of everything, or of the targets alone
+/// (`cargo bench -- targets`): not of a choice of benchmarks, nor a test of them.
+pub fn are_wanted() -> bool {
+    let arguments: Vec<String> = env::args().skip(1).collect();
+    arguments
+        .iter()
+        .all(|it| it == "--bench" || it == "targets")
+        && arguments.iter().any(|it| it == "--bench")
+}
+
+/// Measures all targets and prints the table.
+pub fn print() {
+    println!(
+        "\n{:<52} {:>10} {:>10}",
+        "speed target", "at most", "measured"
+    );
+    boundary();
+    first_answer();
+    matches();
+    whole_process();
+    memory();
+}
+
+fn row(name: &str, most: &str, measured: &str, is_met: bool, detail: &str) {
+    let verdict = if is_met { "met" } else { "MISSED" };
+    println!("{name:<52} {most:>10} {measured:>10}  {verdict:<6}  {detail}");
+}
+
+fn ratio_row(name: &str, most: f64, measured: f64, detail: &str) {
+    let [most_text, measured_text] = [most, measured].map(|ratio| format!("{ratio:.2}x"));
+    row(name, &most_text, &measured_text, measured <= most, detail);
+}
+
+fn time_row(name: &str, most: Duration, measured: Duration) {
+    let [most_text, measured_text] = [most, measured].map(|time| format!("{time:.1?}"));
+    row(name, &most_text, &measured_text, measured <= most, "");
+}
+
+fn boundary() {
+    let driver = stage::driver();
+    let mut drive = Drive::new(&driver);
+    drive.play();
+    let readings = drive.readings();
+    let mut bare = Bare::new(&driver);
+    let pair = side_by_side(|| drive.play(), || bare.answer(&readings));
+    let steps = readings.len() as f64;
+    let [step, call] = [pair.first, pair.second].map(|it| it.as_secs_f64() * 1e9 / steps);
+    ratio_row(
+        "a step of a match / a bare typed call",
+        1.5,
+        pair.ratio,
+        &format!("{step:.0} ns / {call:.0} ns"),
+    );
+}
+
+fn first_answer() {
+    let most = Duration::from_micros(10);
+    let flood = bundled::find("flood").expect("a bundled robot").component;
+    for (name, component) in [
+        ("smallest robot", stage::driver()),
+        ("flood", flood.to_vec()),
+    ] {
+        let mut drive = Drive::new(&component).with_budget(1);
+        let time = alone(10_000, || drive.play());
+        time_row(&format!("instance to first answer, {name}"), most, time);
+    }
+}
+
+fn matches() {
+    let host = stage::host(1);
+    let flood = stage::robot(&host, "flood");
+    let rules = Ruleset::default();
+    for (name, maze) in stage::match_mazes() {
+        let mut recorder = Recorder::default();
+        let mut trace = Trace::default();
+        let pair = side_by_side(
+            || {
+                black_box(stage::play(&host, &flood, &maze, &rules, &mut recorder));
+            },
+            || native::play(black_box(&maze), &rules, &mut trace),
+        );
+        assert_eq!(recorder.trace, trace, "both have played the same match");
+        let fuel: u64 = recorder.step_fuel.iter().sum();
+        let steps = trace.steps().len();
+        ratio_row(
+            &format!("flood in wasm / native, {name}"),
+            2.0,
+            pair.ratio,
+            &format!(
+                "{:.1?} / {:.1?}, {steps} steps, {fuel} fuel",
+                pair.first, pair.second
+            ),
+        );
+    }
+}
+
+fn whole_process() {
+    let cache = tempfile::tempdir().expect("a folder for temporary files");
+    let cache = cache.path().join("robots");
+    let time = alone(41, || process::run_flood(&cache));
+    let name = "`wasmouse run flood test_maze_01`, warm cache";
+    time_row(name, Duration::from_millis(60), time);
+}
+
+/// Plays very many matches on one host. Says nothing where the system does not
+/// tell how much memory a process has.
+fn memory() {
+    let host = stage::host(1);
+    let flood = stage::robot(&host, "flood");
+    let rules = Ruleset::default();
+    let (_, maze) = stage::match_mazes().swap_remove(0);
+    let mut recorder = Recorder::default();
+    let mut many = |matches: u32| {
+        for _ in 0..matches {
+            black_box(stage::play(&host, &flood, &maze, &rules, &mut recorder));
+        }
+        resident_kib()
+    };
+    let (Some(before), Some(after)) = (many(MATCHES / 100), many(MATCHES)) else {
+        println!("memory: not measured, the system does not tell");
+        return;
+    };
+    let growth = after.saturating_sub(before);
+    row(
+        &format!("growth of memory in {MATCHES} matches"),
+        "256 KiB",
+        &format!("{growth} KiB"),
+        growth <= 256,
+        &format!("{before} KiB before, {after} KiB after"),
+    );
+}
+
+/// Memory of this process that is resident, in KiB.
+fn resident_kib() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmRSS:"))?;
+    line.split_whitespace().nth(1)?.parse().ok()
+}
