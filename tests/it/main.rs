@@ -13,6 +13,8 @@ mod determinism;
 mod formats;
 /// Robots in WebAssembly text, and a good one beside them.
 mod hostile;
+/// Imports between the folders of the host.
+mod layers;
 /// The prebuilt robots against their sources and their manifest.
 mod prebuilt;
 /// The README's tutorial and examples, run as they stand there.
