@@ -5,6 +5,8 @@
 
 /// The `wasmouse` binary.
 mod binary;
+/// The cache of compiled robots, damaged and unusable.
+mod cache;
 /// The rules: recorded games and games written by hand.
 mod conformance;
 /// The same bytes from the same contest.
@@ -29,6 +31,8 @@ mod sdk_arena;
 mod shared;
 /// Optimal paths and the floor of the official mazes.
 mod solver;
+/// Closed pipes, full disks and terminals.
+mod streams;
 /// Robots that fail, and the verdicts on them.
 mod verdicts;
 /// The hash of the WIT beside its history.

@@ -18,16 +18,16 @@ pub fn print(contest: &Contest, host: &Host, results: &[MatchResult]) -> Result<
             .map_err(Failure::host)?;
         let robot = visible(&contest.entrants[result.entrant].name);
         let maze = visible(&contest.mazes[result.maze].name);
-        anstream::eprintln!("journal of `{robot}` in `{maze}`, seed {}:", result.seed);
+        tell!("journal of `{robot}` in `{maze}`, seed {}:", result.seed);
         for entry in recorder.journal.entries() {
             if let Note::Log { level, text } = entry.note {
                 let level = level_name(level);
-                anstream::eprintln!("{:>6} {level:<7} {}", entry.step, visible(text));
+                tell!("{:>6} {level:<7} {}", entry.step, visible(text));
             }
         }
         let dropped = recorder.journal.dropped();
         if dropped > 0 {
-            anstream::eprintln!("       {dropped} more entries did not fit the journal's limit");
+            tell!("       {dropped} more entries did not fit the journal's limit");
         }
     }
     Ok(())

@@ -5,6 +5,14 @@
 //! file with its arguments and a `run` function; typed arguments become domain
 //! values there, and nothing below sees a flag.
 
+/// Tells the person at the terminal something, formatted as by `format!`, on
+/// standard error.
+macro_rules! tell {
+    ($($arguments:tt)*) => {
+        $crate::cli::output::tell(format_args!($($arguments)*))
+    };
+}
+
 mod build;
 mod completions;
 mod demo;
@@ -73,7 +81,7 @@ pub fn main() -> ExitCode {
     match outcome {
         Ok(exit) => exit.into(),
         Err(failure) => {
-            anstream::eprintln!("{failure}");
+            tell!("{failure}");
             failure.exit().into()
         }
     }

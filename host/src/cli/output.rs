@@ -1,5 +1,7 @@
-//! Where commands put their results: standard output and files.
+//! Where commands put their results: standard output and files; and what they
+//! say about them: standard error.
 
+use std::fmt;
 use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
@@ -24,6 +26,14 @@ pub fn print(text: &str) -> Result<(), Failure> {
         ))),
         _ => Ok(()),
     }
+}
+
+/// Writes a line to standard error.
+///
+/// Whether anybody hears it decides nothing: results and exit codes are the same
+/// when standard error is closed, or on a full disk.
+pub fn tell(line: fmt::Arguments<'_>) {
+    let _ = writeln!(anstream::stderr(), "{line}");
 }
 
 /// What to do with a file that is there already.

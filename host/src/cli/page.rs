@@ -43,7 +43,7 @@ pub fn write(
     }
     let page = page(contest, results, standings, &portraits);
     output::save(path, page.as_bytes(), existing)?;
-    anstream::eprintln!("wrote {}", path.display());
+    tell!("wrote {}", path.display());
     Ok(())
 }
 

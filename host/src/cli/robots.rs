@@ -181,7 +181,7 @@ pub fn load(specifications: &[Specification], host: &Host) -> Result<Vec<Entrant
         if let Ok(robot) = &admission
             && let CacheUse::Failed(reason) = robot.cache_use()
         {
-            anstream::eprintln!("warning: {reason}; robots are compiled anew each time");
+            tell!("warning: {reason}; robots are compiled anew each time");
         }
         entrants.push(Entrant {
             name,

@@ -143,11 +143,11 @@ pub fn exit(contest: &Contest, played: &Played) -> Exit {
         let robot = visible(&contest.entrants[failed.entrant].name);
         let maze = visible(&contest.mazes[failed.maze].name);
         let (seed, error) = (failed.seed, &failed.error);
-        anstream::eprintln!("error: `{robot}` in `{maze}`, seed {seed}, was not played: {error}");
+        tell!("error: `{robot}` in `{maze}`, seed {seed}, was not played: {error}");
     }
     let missing = contest.matches() - played.results.len() - played.failed.len();
     if missing > 0 {
-        anstream::eprintln!("interrupted: {missing} matches were not played");
+        tell!("interrupted: {missing} matches were not played");
         return Exit::Interrupted;
     }
     let is_fault = |result: &MatchResult| matches!(result.outcome.verdict, Verdict::Fault(_));
@@ -166,7 +166,7 @@ pub fn tell_failures(contest: &Contest, results: &[MatchResult]) {
     for entrant in &contest.entrants {
         if let Err(refusal) = &entrant.admission {
             let (name, reason) = (visible(&entrant.name), visible(&refusal.to_string()));
-            anstream::eprintln!("refused `{name}`: {reason}\n  hint: {}", refusal.hint());
+            tell!("refused `{name}`: {reason}\n  hint: {}", refusal.hint());
         }
     }
     // The same fault in every maze is told once for each, up to a screenful.
@@ -182,10 +182,10 @@ pub fn tell_failures(contest: &Contest, results: &[MatchResult]) {
         let robot = visible(&contest.entrants[result.entrant].name);
         let maze = visible(&contest.mazes[result.maze].name);
         let fault = visible(&fault.to_string());
-        anstream::eprintln!("fault of `{robot}` in `{maze}`: {fault}");
+        tell!("fault of `{robot}` in `{maze}`: {fault}");
     }
     if count > TOLD_MAX {
-        anstream::eprintln!("and {} more faults; --json lists all", count - TOLD_MAX);
+        tell!("and {} more faults; --json lists all", count - TOLD_MAX);
     }
 }
 

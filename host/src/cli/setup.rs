@@ -23,8 +23,9 @@ pub struct SetupArgs {
     /// Where compiled robots are kept; by default in the user's cache folder
     #[arg(long, value_name = "FOLDER", env = "WASMOUSE_CACHE")]
     cache: Option<PathBuf>,
-    /// Compile robots anew and keep nothing
-    #[arg(long, conflicts_with = "cache")]
+    /// Compile robots anew and keep nothing, whatever `--cache` says
+    // No conflict with `--cache`: clap would also see one in WASMOUSE_CACHE.
+    #[arg(long)]
     no_cache: bool,
 }
 
@@ -69,7 +70,7 @@ impl SetupArgs {
         match Cache::open(folder) {
             Ok(cache) => Some(cache),
             Err(error) => {
-                anstream::eprintln!("warning: {error}; robots are compiled anew each time");
+                tell!("warning: {error}; robots are compiled anew each time");
                 None
             }
         }

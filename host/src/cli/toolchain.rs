@@ -106,7 +106,7 @@ impl Toolchain {
         match plan {
             Plan::AsIs => Ok(Self::default()),
             Plan::UsePackaged(packaged) => {
-                anstream::eprintln!(
+                tell!(
                     "using the packaged compiler {} with {}",
                     packaged.rustc.display(),
                     packaged.linker.display()
@@ -211,7 +211,7 @@ fn newest_wasm_ld(bin: &Path) -> Option<PathBuf> {
 
 /// Asks rustup for the target; says on stderr what happens.
 fn add_target(folder: &Path) -> bool {
-    anstream::eprintln!("adding the target {WASM_TARGET} with rustup");
+    tell!("adding the target {WASM_TARGET} with rustup");
     // rustup's stdout is talk, and ours is data.
     let status: io::Result<_> = quiet("rustup", folder)
         .args(["target", "add", WASM_TARGET])
@@ -219,7 +219,7 @@ fn add_target(folder: &Path) -> bool {
         .status();
     let added = status.is_ok_and(|status| status.success());
     if !added {
-        anstream::eprintln!("rustup could not add the target");
+        tell!("rustup could not add the target");
     }
     added
 }

@@ -62,7 +62,7 @@ pub fn run(args: Args) -> Result<Exit, Failure> {
     let checked: Vec<Checked> = args.mazes.iter().flat_map(|spec| check(spec)).collect();
     for checked in &checked {
         if let Err(failure) = &checked.outcome {
-            anstream::eprintln!("{failure}");
+            tell!("{failure}");
         }
     }
     let survey = survey(&checked);

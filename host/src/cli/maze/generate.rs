@@ -181,7 +181,7 @@ fn save_all(
     for (file, maze) in files() {
         output::save(&file, text(&maze, format).as_bytes(), existing)?;
     }
-    anstream::eprintln!("wrote {} mazes to {}", spec.count(), folder.display());
+    tell!("wrote {} mazes to {}", spec.count(), folder.display());
     Ok(())
 }
 

@@ -155,7 +155,7 @@ fn picture(named: &NamedMaze, args: &Args) -> Picture {
     if let Some(path) = path {
         picture.set_path(&path);
     } else if !matches!(args.path, PathChoice::None) {
-        anstream::eprintln!("warning: maze `{}` has no way to the goal", named.name);
+        tell!("warning: maze `{}` has no way to the goal", named.name);
     }
     if let Some(metric) = args.numbers {
         picture.set_numbers(&distances_to_goal(maze, metric.into()));

@@ -1,0 +1,154 @@
+//! Standard output and standard error in unusual states: closed, full, a terminal.
+
+use std::fs::File;
+use std::process::{Command, Stdio};
+
+use crate::binary::{path, wasmouse};
+
+/// Commands that print more than a pipe holds, and some that print little.
+const PRINTING: [&[&str]; 8] = [
+    &[
+        "run",
+        "flood",
+        "gen:tree:12:1..=200",
+        "--json",
+        "--no-cache",
+    ],
+    &["run", "flood", "test_maze_01", "--no-cache"],
+    &["robots"],
+    &["inspect", "flood", "--no-cache"],
+    &["maze", "show", "test_maze_01"],
+    &["man"],
+    &["completions", "bash"],
+    &["run", "--help"],
+];
+
+#[test]
+fn a_reader_that_goes_away_is_no_failure() {
+    for arguments in PRINTING {
+        let mut child = wasmouse()
+            .args(arguments)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the program starts");
+        drop(child.stdout.take());
+        let output = child.wait_with_output().expect("the program ends");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(
+            (output.status.code(), &*stderr),
+            (Some(0), ""),
+            "{arguments:?}"
+        );
+    }
+}
+
+/// A file that is no robot.
+const NO_ROBOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml");
+
+#[test]
+fn nobody_has_to_hear_the_talk() {
+    // Unknown mazes and refused robots are told on standard error.
+    for (arguments, code) in [
+        (&["maze", "show", "missing"][..], 3),
+        (&["run", "flood", "--seed", "-1"], 2),
+        (
+            &[
+                "run",
+                "--robot",
+                NO_ROBOT,
+                "-m",
+                "test_maze_01",
+                "--no-cache",
+            ],
+            4,
+        ),
+    ] {
+        let mut child = wasmouse()
+            .args(arguments)
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the program starts");
+        drop(child.stderr.take());
+        let status = child.wait().expect("the program ends");
+        assert_eq!(status.code(), Some(code), "{arguments:?}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_a_failure_of_the_host() {
+    let full = || {
+        File::options()
+            .write(true)
+            .open("/dev/full")
+            .expect("Linux has it")
+    };
+    for arguments in PRINTING {
+        // clap prints the help and does not tell.
+        let expected = if arguments.contains(&"--help") { 0 } else { 5 };
+        let output = wasmouse()
+            .args(arguments)
+            .stdin(Stdio::null())
+            .stdout(full())
+            .output()
+            .expect("the program runs");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(
+            output.status.code(),
+            Some(expected),
+            "{arguments:?}: {stderr}"
+        );
+        let told = stderr.starts_with("error: failed to write standard output: ");
+        assert_eq!(told, expected == 5, "{arguments:?}: {stderr}");
+    }
+    // And when that cannot be told either.
+    let status = wasmouse()
+        .args(["robots"])
+        .stdout(full())
+        .stderr(full())
+        .status()
+        .expect("the program runs");
+    assert_eq!(status.code(), Some(5));
+}
+
+/// Runs a command line on a terminal of its own and returns what it shows there;
+/// `None` where `script` is missing.
+#[cfg(target_os = "linux")]
+fn on_a_terminal(arguments: &str, variables: &[(&str, &str)]) -> Option<String> {
+    let line = format!("'{}' {arguments}", path().display());
+    let output = Command::new("script")
+        .args(["--quiet", "--return", "--command", &line, "/dev/null"])
+        .stdin(Stdio::null())
+        .env_remove("NO_COLOR")
+        .env("TERM", "xterm-256color")
+        .envs(variables.iter().copied())
+        .output();
+    let Ok(output) = output else {
+        println!("skipped: there is no `script` that makes a terminal");
+        return None;
+    };
+    assert!(output.status.success(), "{arguments}: {output:?}");
+    Some(String::from_utf8(output.stdout).expect("text"))
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn colour_is_for_terminals_that_want_it() {
+    const SHOW: &str = "maze show test_maze_01 --path steps";
+    let Some(coloured) = on_a_terminal(SHOW, &[]) else {
+        return;
+    };
+    assert!(coloured.contains("\u{1b}["), "{coloured}");
+    for variable in [("NO_COLOR", "1"), ("TERM", "dumb")] {
+        let plain = on_a_terminal(SHOW, &[variable]).expect("there is `script`");
+        assert!(!plain.contains('\u{1b}'), "{variable:?}: {plain}");
+        assert!(plain.contains('─'), "{plain}");
+    }
+    // An empty NO_COLOR does not count.
+    let coloured = on_a_terminal(SHOW, &[("NO_COLOR", "")]).expect("there is `script`");
+    assert!(coloured.contains("\u{1b}["), "{coloured}");
+}
