@@ -7,6 +7,8 @@
 mod binary;
 /// The cache of compiled robots, damaged and unusable.
 mod cache;
+/// What commands print, and how they fail.
+mod cli;
 /// The rules: recorded games and games written by hand.
 mod conformance;
 /// The same bytes from the same contest.

@@ -1,0 +1,263 @@
+//! What commands print, and how they fail: transcripts with exit code, standard
+//! output and standard error.
+//!
+//! After a wanted change, `INSTA_UPDATE=always cargo test -p wasmouse-tests cli`
+//! writes the transcripts anew.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use insta::{Settings, assert_snapshot};
+use tempfile::TempDir;
+
+use crate::binary::{Ran, ran, wasmouse};
+use crate::hostile::{IMPORT_LOG, Module, wasm};
+
+/// A folder with robots and mazes of every kind, in which commands are run.
+fn folder() -> TempDir {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let talkative = Module {
+        imports: IMPORT_LOG,
+        rest: r#"(global $said (mut i32) (i32.const 0))
+            (data (i32.const 32) "plain, \1b[31mred\1b[0m, \e2\80\aeright to left\0a<b>next</b>")"#,
+        next: "(if (i32.eqz (global.get $said)) (then
+                (call $log (i32.const 2) (i32.const 32) (i32.const 49))
+                (global.set $said (i32.const 1))))
+            i32.const 16",
+        ..Module::default()
+    };
+    let trapping = Module {
+        next: "unreachable",
+        ..Module::default()
+    };
+    let files = [
+        ("ahead.wasm", Module::default().component()),
+        ("core.wasm", Module::default().core()),
+        ("talkative.wasm", talkative.component()),
+        ("trapping.wasm", trapping.component()),
+        (
+            "wasi.wasm",
+            wasm(r#"(component (import "wasi:cli/environment@0.2.0" (instance)))"#),
+        ),
+        ("empty.wasm", Vec::new()),
+        ("text.wasm", b"I am a robot\n".to_vec()),
+        ("bare.wasm", wasm("(module)")),
+        (
+            "small.txt",
+            b"4\n3,5,5,6\n10,3,6,10\n10,9,12,10\n9,5,5,12\n".to_vec(),
+        ),
+        ("broken.txt", b"4\n1,5,5,6\n10,3,x,10\n".to_vec()),
+        ("letter.txt", b"Dear referee,\n".to_vec()),
+    ];
+    for (name, bytes) in files {
+        fs::write(folder.path().join(name), bytes).expect("a file");
+    }
+    fs::create_dir(folder.path().join("nothing")).expect("a folder");
+    folder
+}
+
+/// The command in that folder, with nothing of the user's environment.
+fn command(folder: &Path, arguments: &str) -> Command {
+    let mut command = wasmouse();
+    command
+        .args(arguments.split_whitespace())
+        .current_dir(folder)
+        .env_clear()
+        .env("HOME", folder.join("home"));
+    command
+}
+
+/// Runs the command lines in one folder and compares what came of them.
+#[track_caller]
+fn check(name: &str, command_lines: &[&str]) {
+    let folder = folder();
+    let mut transcript = String::new();
+    for line in command_lines {
+        let Ran {
+            status,
+            stdout,
+            stderr,
+        } = ran(&mut command(folder.path(), line));
+        let code = status.code().expect("no signal ended it");
+        writeln!(transcript, "$ wasmouse {line}\n[{code}]").expect("a string");
+        for (stream, text) in [("stdout", stdout), ("stderr", stderr)] {
+            if !text.is_empty() {
+                writeln!(
+                    transcript,
+                    "--- {stream}\n{}",
+                    redacted(&text, folder.path())
+                )
+                .expect("a string");
+            }
+        }
+        transcript.push('\n');
+    }
+    let mut settings = Settings::clone_current();
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings.bind(|| assert_snapshot!(format!("cli-{name}"), transcript));
+}
+
+/// The text without what changes from machine to machine or with every new build
+/// of a robot: folders, versions, digests.
+fn redacted(text: &str, folder: &Path) -> String {
+    let folder = folder.to_str().expect("the folder's name is text");
+    let version = env!("CARGO_PKG_VERSION");
+    let text = text
+        .trim_end()
+        .replace(folder, "[FOLDER]")
+        .replace(&format!("wasmouse {version}"), "wasmouse [VERSION]")
+        .replace(
+            &format!(r#""wasmouse": "{version}""#),
+            r#""wasmouse": "[VERSION]""#,
+        )
+        .replace(&wasmouse::robot::engine_id(), "[ENGINE]");
+    let mut redacted = String::new();
+    for word in text.split_inclusive(|character: char| !character.is_ascii_hexdigit()) {
+        let digits = word.trim_end_matches(|character: char| !character.is_ascii_hexdigit());
+        if digits.len() == 64 {
+            redacted.push_str("[SHA256]");
+            redacted.push_str(&word[64..]);
+        } else {
+            redacted.push_str(word);
+        }
+    }
+    redacted
+}
+
+#[test]
+fn help_in_two_lengths() {
+    for command in [
+        "demo",
+        "run",
+        "robots",
+        "inspect",
+        "maze",
+        "maze check",
+        "maze show",
+        "maze solve",
+        "maze generate",
+        "maze convert",
+        "new",
+        "build",
+        "completions",
+        "man",
+    ] {
+        let name = format!("help-{}", command.replace(' ', "-"));
+        let (short, long) = (format!("{command} -h"), format!("{command} --help"));
+        check(&name, &[&short, &long]);
+    }
+    check("help", &["", "-h", "--help", "--version", "race", "maze"]);
+}
+
+#[test]
+fn lists() {
+    check("robots", &["robots"]);
+}
+
+#[test]
+fn contests() {
+    check(
+        "run",
+        &[
+            "run ahead.wasm test_maze_01",
+            "run core.wasm small.txt --lenient --ascii",
+            "run ahead.wasm:7 test_maze_01 tree-16 --seed 41 --repeat 2",
+            "run --robot ahead.wasm --maze test_maze_01 --rules udacity-each-run",
+            "run talkative.wasm test_maze_01 --log",
+            "run trapping.wasm ahead.wasm wasi.wasm empty.wasm test_maze_01",
+            "run trapping.wasm gen:tree:12:1..=21 --ascii --jobs 1",
+            "run ahead.wasm trapping.wasm wasi.wasm test_maze_01 --json",
+            "run wasi.wasm test_maze_01 --watch",
+        ],
+    );
+}
+
+#[test]
+fn contests_of_bad_input() {
+    check(
+        "run-bad-input",
+        &[
+            "run",
+            "run test_maze_01",
+            "run missing.wasm test_maze_01",
+            "run nothing test_maze_01",
+            "run flod test_maze_01",
+            "run flood test_maze_1",
+            "run flood flood.txt",
+            "run flood:2 test_maze_01",
+            "run flood:fast test_maze_01",
+            "run random:1 test_maze_01",
+            "run flood small.txt",
+            "run flood broken.txt",
+            "run flood letter.txt",
+            "run flood nothing",
+            "run flood gen:tree:13:1",
+            "run flood gen:maze:12:1",
+            "run flood -m - -m -",
+            "run flood test_maze_01 --rules fast",
+            "run flood test_maze_01 --jobs 0",
+            "run flood test_maze_01 --repeat 0",
+            "run flood test_maze_01 --repeat 1000001",
+            "run flood test_maze_01 --seed -1",
+            "run flood test_maze_01 --seed 18446744073709551616",
+            "run flood test_maze_01 --seed 18446744073709551615 --repeat 2",
+            "run flood test_maze_01 --watch",
+            "run flood dfs test_maze_01 --watch",
+            "run flood test_maze_01 --watch --json",
+            "run flood test_maze_01 --delay 5",
+            "run flood test_maze_01 --force",
+            "run flood test_maze_01 --html missing/page.html",
+            "run flood test_maze_01 --html nothing",
+            "run flood test_maze_01 --html small.txt",
+        ],
+    );
+}
+
+#[test]
+fn inspections() {
+    check(
+        "inspect",
+        &[
+            "inspect core.wasm",
+            "inspect talkative.wasm",
+            "inspect talkative.wasm --json",
+            "inspect wasi.wasm",
+            "inspect wasi.wasm --json",
+            "inspect bare.wasm",
+            "inspect empty.wasm",
+            "inspect text.wasm --json",
+            "inspect missing.wasm",
+            "inspect nothing",
+            "inspect",
+        ],
+    );
+}
+
+#[test]
+fn other_commands_with_bad_input() {
+    check(
+        "bad-input",
+        &[
+            "demo --html missing/page.html",
+            "demo --html nothing",
+            "maze check broken.txt",
+            "maze show missing.txt",
+            "maze solve letter.txt",
+            "maze generate gen:tree:13:1",
+            "maze convert small.txt -o missing/maze.num --to num",
+            "build missing",
+            "build small.txt",
+            "build ahead.wasm",
+            "build bare.wasm",
+            "build nothing",
+            "new nothing",
+            "new 1robot",
+            "new ../x/-y",
+            "completions shell",
+            "man missing/man",
+        ],
+    );
+}
