@@ -17,8 +17,12 @@ mod determinism;
 mod formats;
 /// Robots in WebAssembly text, and a good one beside them.
 mod hostile;
+/// Ctrl-C in a contest.
+mod interrupt;
 /// Imports between the folders of the host.
 mod layers;
+/// Memory of the process, however many matches are played.
+mod memory;
 /// The prebuilt robots against their sources and their manifest.
 mod prebuilt;
 /// The README's tutorial and examples, run as they stand there.
