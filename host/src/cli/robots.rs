@@ -171,8 +171,15 @@ fn read_file(path: &Path, bytes_max: u64) -> Result<Vec<u8>, Failure> {
 ///
 /// # Errors
 ///
-/// When a file cannot be read; a robot that is refused is an entrant all the same.
+/// When a file cannot be read, or a robot is given twice; a robot that is refused
+/// is an entrant all the same.
 pub fn load(specifications: &[Specification], host: &Host) -> Result<Vec<Entrant>, Failure> {
+    let mut labels: Vec<String> = specifications.iter().map(Specification::label).collect();
+    labels.sort();
+    if let Some(twice) = labels.windows(2).find(|pair| pair[0] == pair[1]) {
+        let message = format!("robot `{}` is given twice", visible(&twice[0]));
+        return Err(Failure::usage(message).hint("--repeat plays a robot more than once"));
+    }
     let mut entrants = Vec::with_capacity(specifications.len());
     for specification in specifications {
         let bytes = specification.read(host.limits().component_bytes_max)?;

@@ -161,3 +161,38 @@ fn out_of_fuel((limit, max): (FuelLimit, u64)) -> (FaultKind, String) {
     let detail = format!("used up the {max} units of fuel {of}");
     (FaultKind::OutOfFuel(limit), detail)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sorted(error: impl Into<wasmtime::Error>) -> Result<(FaultKind, String), HostError> {
+        classify(&error.into(), (FuelLimit::Step, 7))
+    }
+
+    #[test]
+    fn the_safety_net_is_never_a_verdict() {
+        assert!(matches!(sorted(Trap::Interrupt), Err(HostError::Stalled)));
+    }
+
+    #[test]
+    fn traps_and_limits_have_their_own_faults() {
+        let memory = LimitExceeded::Memory { asked: 9, max: 8 };
+        for (error, kind) in [
+            (
+                wasmtime::Error::from(Trap::OutOfFuel),
+                FaultKind::OutOfFuel(FuelLimit::Step),
+            ),
+            (Trap::UnreachableCodeReached.into(), FaultKind::Unreachable),
+            (Trap::InvalidDiscriminant.into(), FaultKind::Interface),
+            (memory.into(), FaultKind::MemoryLimit),
+            (
+                wasmtime::Error::msg("return pointer not aligned"),
+                FaultKind::Interface,
+            ),
+        ] {
+            let (found, detail) = sorted(error).expect("a fault of the robot");
+            assert_eq!(found, kind, "{detail}");
+        }
+    }
+}
