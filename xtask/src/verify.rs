@@ -31,8 +31,10 @@ pub fn run(root: &Path) -> Result<(), String> {
         .env("RUSTDOCFLAGS", "-D warnings")
         .run()?;
     licences(root)?;
+    // With the tests, because their dependencies turn on features of shared
+    // crates: without them wasmtime would be compiled once more for the tests.
     Step::cargo("build", root)
-        .args(["build", "--workspace", "--bins"])
+        .args(["build", "--workspace", "--bins", "--tests"])
         .run()?;
     let built = target_folder(root).join("robots");
     robots::build_all(root, &built)?;
