@@ -36,7 +36,8 @@ pub fn build_all(root: &Path, output: &Path) -> Result<(), String> {
 /// A line that names what cannot be built or written.
 pub fn rebuild(root: &Path) -> Result<(), String> {
     Step::cargo("build wasmouse", root)
-        .args(["build", "--workspace", "--bins"])
+        // The same call as in `verify`, for the same reason.
+        .args(["build", "--workspace", "--bins", "--tests"])
         .run()?;
     let folder = folder(root);
     build_all(root, &folder)?;
