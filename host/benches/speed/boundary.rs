@@ -130,7 +130,7 @@ impl Drive {
         black_box(stage::play(
             &self.host,
             &self.robot,
-            &self.maze,
+            (&self.maze, 0),
             &self.rules,
             recorder,
         ));

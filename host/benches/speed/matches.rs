@@ -17,11 +17,19 @@ pub fn bench(criterion: &mut Criterion) {
     for (name, maze) in stage::match_mazes() {
         let mut recorder = Recorder::default();
         group.bench_function(format!("wasm/{name}"), |b| {
-            b.iter(|| black_box(stage::play(&host, &flood, &maze, &rules, &mut recorder)));
+            b.iter(|| {
+                black_box(stage::play(
+                    &host,
+                    &flood,
+                    (&maze, 0),
+                    &rules,
+                    &mut recorder,
+                ))
+            });
         });
         let mut trace = Trace::default();
         group.bench_function(format!("native/{name}"), |b| {
-            b.iter(|| native::play(black_box(&maze), &rules, &mut trace));
+            b.iter(|| native::play(black_box(&maze), &rules, 0, &mut trace));
         });
     }
     group.finish();

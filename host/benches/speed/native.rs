@@ -9,9 +9,9 @@ use wasmouse::sim::{Action, Ruleset, Sensors, Simulation, Trace};
 use wasmouse_sdk as sdk;
 use wasmouse_sdk::Robot as _;
 
-/// Plays one match in setting 0; the trace tells how it went.
-pub fn play(maze: &Maze, rules: &Ruleset, trace: &mut Trace) {
-    let mut robot = Flood::start(&briefing(maze, rules));
+/// Plays one match; the trace tells how it went.
+pub fn play(maze: &Maze, rules: &Ruleset, setting: u32, trace: &mut Trace) {
+    let mut robot = Flood::start(&briefing(maze, rules, setting));
     let mut simulation = Simulation::new(maze, rules, trace);
     while simulation.end().is_none() {
         let action = robot.next_move(readings(simulation.sense()));
@@ -20,8 +20,11 @@ pub fn play(maze: &Maze, rules: &Ruleset, trace: &mut Trace) {
 }
 
 /// What the host tells a robot, as far as contest mazes differ.
-fn briefing(maze: &Maze, rules: &Ruleset) -> sdk::Briefing {
-    let briefing = sdk::Briefing::contest(maze.dimension().into());
+fn briefing(maze: &Maze, rules: &Ruleset, setting: u32) -> sdk::Briefing {
+    let briefing = sdk::Briefing {
+        setting,
+        ..sdk::Briefing::contest(maze.dimension().into())
+    };
     assert_eq!(briefing.budget, rules.budget, "a contest under other rules");
     briefing
 }

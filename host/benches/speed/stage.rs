@@ -60,7 +60,7 @@ pub fn generated(specification: &str) -> Vec<(String, Maze)> {
 pub fn play(
     host: &Host,
     robot: &Robot,
-    maze: &Maze,
+    (maze, setting): (&Maze, u32),
     rules: &Ruleset,
     recorder: &mut Recorder,
 ) -> Outcome {
@@ -68,7 +68,7 @@ pub fn play(
         maze,
         rules,
         seed: 0,
-        setting: 0,
+        setting,
     };
     host.play(robot, &game, recorder).expect("the host works")
 }

@@ -7,7 +7,8 @@ use std::env;
 use std::hint::black_box;
 use std::time::Duration;
 
-use wasmouse::robot::{Recorder, bundled};
+use wasmouse::maze::Maze;
+use wasmouse::robot::{Host, Recorder, Robot, bundled};
 use wasmouse::sim::{Ruleset, Trace};
 
 use super::boundary::{Bare, Drive};
@@ -30,7 +31,7 @@ pub fn are_wanted() -> bool {
 /// Measures all targets and prints the table.
 pub fn print() {
     println!(
-        "\n{:<52} {:>10} {:>10}",
+        "\n{:<58} {:>10} {:>10}",
         "speed target", "at most", "measured"
     );
     boundary();
@@ -42,7 +43,7 @@ pub fn print() {
 
 fn row(name: &str, most: &str, measured: &str, is_met: bool, detail: &str) {
     let verdict = if is_met { "met" } else { "MISSED" };
-    println!("{name:<52} {most:>10} {measured:>10}  {verdict:<6}  {detail}");
+    println!("{name:<58} {most:>10} {measured:>10}  {verdict:<6}  {detail}");
 }
 
 fn ratio_row(name: &str, most: f64, measured: f64, detail: &str) {
@@ -85,32 +86,44 @@ fn first_answer() {
     }
 }
 
+/// In both settings: 1 thinks more in each step than 0.
 fn matches() {
     let host = stage::host(1);
     let flood = stage::robot(&host, "flood");
-    let rules = Ruleset::default();
-    for (name, maze) in stage::match_mazes() {
-        let mut recorder = Recorder::default();
-        let mut trace = Trace::default();
-        let pair = side_by_side(
-            || {
-                black_box(stage::play(&host, &flood, &maze, &rules, &mut recorder));
-            },
-            || native::play(black_box(&maze), &rules, &mut trace),
-        );
-        assert_eq!(recorder.trace, trace, "both have played the same match");
-        let fuel: u64 = recorder.step_fuel.iter().sum();
-        let steps = trace.steps().len();
-        ratio_row(
-            &format!("flood in wasm / native, {name}"),
-            2.0,
-            pair.ratio,
-            &format!(
-                "{:.1?} / {:.1?}, {steps} steps, {fuel} fuel",
-                pair.first, pair.second
-            ),
-        );
+    let mazes = stage::match_mazes();
+    for setting in [0, 1] {
+        for (name, maze) in &mazes {
+            one_match(
+                &host,
+                &flood,
+                (maze, setting),
+                &format!("{setting}, {name}"),
+            );
+        }
     }
+}
+
+fn one_match(host: &Host, flood: &Robot, (maze, setting): (&Maze, u32), name: &str) {
+    let rules = Ruleset::default();
+    let mut recorder = Recorder::default();
+    let mut trace = Trace::default();
+    let pair = side_by_side(
+        || {
+            let game = (maze, setting);
+            black_box(stage::play(host, flood, game, &rules, &mut recorder));
+        },
+        || native::play(black_box(maze), &rules, setting, &mut trace),
+    );
+    assert_eq!(recorder.trace, trace, "both have played the same match");
+    let (wasm, native) = (pair.first, pair.second);
+    let steps = trace.steps().len();
+    let sandbox = wasm.saturating_sub(native).as_nanos() / steps as u128;
+    ratio_row(
+        &format!("flood in wasm / native, setting {name}"),
+        2.0,
+        pair.ratio,
+        &format!("{wasm:.1?} / {native:.1?}, {steps} steps, {sandbox} ns a step more"),
+    );
 }
 
 fn whole_process() {
@@ -131,7 +144,13 @@ fn memory() {
     let mut recorder = Recorder::default();
     let mut many = |matches: u32| {
         for _ in 0..matches {
-            black_box(stage::play(&host, &flood, &maze, &rules, &mut recorder));
+            black_box(stage::play(
+                &host,
+                &flood,
+                (&maze, 0),
+                &rules,
+                &mut recorder,
+            ));
         }
         resident_kib()
     };
