@@ -10,7 +10,7 @@ use wasmouse::sim::Ruleset;
 
 use super::stage;
 
-/// `contest/...`: flood and the wall follower in 100 generated mazes.
+/// `contest/...`: flood and depth-first search in 100 generated mazes.
 pub fn bench(criterion: &mut Criterion) {
     let rules = Ruleset::default();
     let host = stage::host(2);
