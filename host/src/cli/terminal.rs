@@ -1,7 +1,9 @@
 //! How output looks on this terminal: colours, Unicode or ASCII.
 
 use std::env;
-use std::io::{IsTerminal as _, stdout};
+use std::io::stdout;
+
+use anstream::{AutoStream, ColorChoice};
 
 use crate::report::picture::{Charset, TextStyle};
 use crate::report::table::Lines;
@@ -20,12 +22,15 @@ pub fn picture_style(ascii: bool) -> TextStyle {
         } else {
             Charset::Unicode
         },
-        color: stdout().is_terminal() && wants_color(),
+        color: wants_color(),
     }
 }
 
-fn wants_color() -> bool {
-    let is_set = |name| env::var_os(name).is_some_and(|value| !value.is_empty());
+/// Whether standard output is a terminal that wants colour.
+pub fn wants_color() -> bool {
+    // anstream knows NO_COLOR, CLICOLOR and whether it is a terminal; in CI it
+    // takes a dumb terminal for a good one.
     let is_dumb = env::var_os("TERM").is_some_and(|term| term == "dumb");
-    !is_set("NO_COLOR") && !is_dumb
+    let choice = AutoStream::choice(&stdout());
+    !is_dumb && !matches!(choice, ColorChoice::Never)
 }

@@ -1,12 +1,12 @@
 //! `wasmouse maze show`: a drawing of a maze.
 
-use std::io;
 use std::path::{Path, PathBuf};
 
 use super::super::exit::Exit;
 use super::super::failure::Failure;
 use super::super::mazes::{self, Legality, NamedMaze};
 use super::super::output::{self, Existing};
+use super::super::terminal;
 use crate::maze::{Metric, distances_to_goal, shortest_path};
 use crate::report::picture::{Charset, Picture, TextStyle};
 
@@ -171,10 +171,6 @@ fn wants_color(choice: ColorChoice) -> bool {
     match choice {
         ColorChoice::Always => true,
         ColorChoice::Never => false,
-        // Knows NO_COLOR, CLICOLOR, TERM=dumb and whether it is a terminal.
-        ColorChoice::Auto => {
-            let detected = anstream::AutoStream::choice(&io::stdout());
-            !matches!(detected, anstream::ColorChoice::Never)
-        }
+        ColorChoice::Auto => terminal::wants_color(),
     }
 }
