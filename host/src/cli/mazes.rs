@@ -24,7 +24,8 @@ A maze is one of, in this order:
                  tree (also tree,loops=PERCENT) or braid; dimension and seed may
                  be ranges such as 12..=20 and 1..=100, for many mazes
   test_maze_01   the name of a bundled maze
-  a.txt          a file in any format: udacity, competition, map, num
+  a.txt          a file in any format: udacity, competition, map, num,
+                 blocks
   mazes          a folder: all its .txt, .map, .maz and .num files by name,
                  without subfolders and hidden files
 Write ./NAME for a file or folder that is named like one of the others.";

@@ -18,6 +18,8 @@ Formats:
   competition  a picture with posts o, walls --- and |, start S, goal cells G
   map          the same picture with posts + and no marks, for simulators
   num          one line per cell: x y north east south west, 1 is a wall
+  blocks       a picture with one character a block, 1 a wall and 0 open; a maze
+               of n x n cells has 2n + 1 lines of 2n + 1 blocks
 The format that is read is recognised by content. Only competition holds a start
 other than (0, 0) or a goal other than the centre.
 

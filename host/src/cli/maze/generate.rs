@@ -189,7 +189,7 @@ fn save_all(
 fn file_name(name: &str, format: Format) -> String {
     let words = name.trim_start_matches("gen:").replace([':', ','], "-");
     let ending = match format {
-        Format::Udacity | Format::Competition => "txt",
+        Format::Udacity | Format::Competition | Format::Blocks => "txt",
         Format::Map => "map",
         Format::Num => "num",
     };

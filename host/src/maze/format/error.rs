@@ -21,7 +21,7 @@ pub enum ParseError {
     /// The first line begins none of the formats.
     #[error(
         "line 1: expected the dimension alone, a row of posts such as `o---o`, \
-         or the six numbers of a cell, found {found}"
+         the six numbers of a cell, or a row of blocks such as `11111`, found {found}"
     )]
     Unrecognized {
         /// The beginning of the line, quoted.

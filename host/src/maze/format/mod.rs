@@ -1,7 +1,7 @@
-//! Maze files: four text formats, recognised by content, read and printed.
+//! Maze files: five text formats, recognised by content, read and printed.
 //!
 //! One file per format; `competition` and `map` share `picture`, because
-//! they draw the same picture. Reading is strict: an error names line, column,
+//! they draw the same picture, and `blocks` shares `row` with it. Reading is strict: an error names line, column,
 //! what was expected and what stands there. Common to all formats:
 //!
 //! - Lines may end in LF or CRLF; the last line ending may be missing; blank
@@ -13,12 +13,14 @@
 //! Nothing here asks whether a maze is fit for a contest: see
 //! [`violations`](super::violations).
 
+mod blocks;
 mod competition;
 mod edges;
 mod error;
 mod map;
 mod num;
 mod picture;
+mod row;
 mod text;
 mod udacity;
 
@@ -27,7 +29,7 @@ use std::str::FromStr;
 
 pub use error::{Edge, ParseError, PrintError};
 
-use super::{Area, Cell, Maze};
+use super::{Area, Cell, DIMENSIONS, Maze};
 use text::Line;
 
 /// The longest text that is read, in bytes: 256 KiB.
@@ -54,19 +56,28 @@ pub enum Format {
     Map,
     /// One line of six numbers per cell.
     Num,
+    /// A picture of blocks, `1` for a wall and `0` for an open one.
+    Blocks,
 }
 
 impl Format {
     /// All formats, in the order in which help texts name them.
-    pub const ALL: [Self; 4] = [Self::Udacity, Self::Competition, Self::Map, Self::Num];
+    pub const ALL: [Self; 5] = [
+        Self::Udacity,
+        Self::Competition,
+        Self::Map,
+        Self::Num,
+        Self::Blocks,
+    ];
 
-    /// `udacity`, `competition`, `map` or `num`, as on the command line and in JSON.
+    /// `udacity`, `competition`, `map`, `num` or `blocks`, as on the command line and in JSON.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Udacity => "udacity",
             Self::Competition => "competition",
             Self::Map => "map",
             Self::Num => "num",
+            Self::Blocks => "blocks",
         }
     }
 }
@@ -80,7 +91,7 @@ impl fmt::Display for Format {
 /// A name that is none of the formats'.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "unknown maze format `{}`, expected udacity, competition, map or num",
+    "unknown maze format `{}`, expected udacity, competition, map, num or blocks",
     .0.escape_debug()
 )]
 pub struct UnknownFormat(pub String);
@@ -109,7 +120,8 @@ pub struct Parsed {
 ///
 /// A line with one number is [`Format::Udacity`], six numbers are
 /// [`Format::Num`]; a row of posts and walls is [`Format::Competition`] when the
-/// posts are `o` and [`Format::Map`] otherwise.
+/// posts are `o` and [`Format::Map`] otherwise. Five or more characters `1` and `0`
+/// are the top of [`Format::Blocks`]: no dimension has as many digits.
 ///
 /// # Errors
 ///
@@ -150,15 +162,21 @@ fn parse_lines(lines: &[Line<'_>], format: Format) -> Result<Maze, ParseError> {
         Format::Competition => competition::parse(lines),
         Format::Map => map::parse(lines),
         Format::Num => num::parse(lines),
+        Format::Blocks => blocks::parse(lines),
     }
 }
 
+/// Blocks along the side of the smallest maze.
+const BLOCKS_MIN: usize = 2 * *DIMENSIONS.start() as usize + 1;
+
 fn recognize(first: &Line<'_>) -> Result<Format, ParseError> {
     let is_number = |word: &str| word.bytes().all(|byte| byte.is_ascii_digit());
+    let is_blocks = |word: &str| word.bytes().all(|byte| matches!(byte, b'0' | b'1'));
     let words: Vec<&str> = first.text().split_whitespace().take(7).collect();
     if !words.is_empty() && words.iter().all(|word| is_number(word)) {
-        return Ok(match words.len() {
-            1 => Format::Udacity,
+        return Ok(match words[..] {
+            [word] if word.len() >= BLOCKS_MIN && is_blocks(word) => Format::Blocks,
+            [_] => Format::Udacity,
             _ => Format::Num,
         });
     }
@@ -193,6 +211,7 @@ pub fn print(maze: &Maze, format: Format) -> Result<String, PrintError> {
         Format::Competition => competition::print(maze),
         Format::Map => map::print(maze),
         Format::Num => num::print(maze),
+        Format::Blocks => blocks::print(maze),
     })
 }
 

@@ -10,9 +10,16 @@
 //! o---o---o---o
 //! ```
 
-use super::super::{Area, Cell, DIMENSIONS, Heading, Maze, Walls};
+use super::super::{Area, Cell, Heading, Maze, Walls};
 use super::ParseError;
-use super::text::{Line, quoted, quoted_character};
+use super::row::{Drawing, Row, cell_row};
+use super::text::Line;
+
+const DRAWING: Drawing = Drawing {
+    cell_width: CELL_WIDTH,
+    first_line: "a whole number of cells, four characters each, and a post",
+    wall_row: "a row of posts and walls",
+};
 
 /// Characters from one post to the next.
 const CELL_WIDTH: usize = 4;
@@ -54,7 +61,7 @@ fn is_visible(character: char) -> bool {
 }
 
 pub(super) fn parse(lines: &[Line<'_>], style: Style) -> Result<Maze, ParseError> {
-    let dimension = dimension(lines)?;
+    let dimension = DRAWING.dimension(lines)?;
     let mut picture = Picture {
         style,
         walls: Walls::closed(dimension),
@@ -68,78 +75,9 @@ pub(super) fn parse(lines: &[Line<'_>], style: Style) -> Result<Maze, ParseError
         } else {
             picture.cells(&row, index / 2)?;
         }
-        row.end(usize::from(dimension))?;
+        DRAWING.end(&row, usize::from(dimension))?;
     }
     picture.finish()
-}
-
-/// The side of the maze, from the length of the first line and the number of lines.
-fn dimension(lines: &[Line<'_>]) -> Result<u8, ParseError> {
-    let first = Row::new(&lines[0]);
-    let columns = first.characters.len() / CELL_WIDTH;
-    if first.characters.len() % CELL_WIDTH != 1 {
-        let expected = "a whole number of cells, four characters each, and a post";
-        return Err(first.unexpected(first.characters.len(), expected));
-    }
-    let dimension = u8::try_from(columns)
-        .ok()
-        .filter(|columns| DIMENSIONS.contains(columns))
-        .ok_or(ParseError::Dimension { cells: columns })?;
-    let rows = lines.len() / 2;
-    // A line of another length below the picture is a remark; one of the same
-    // length is a further row of it.
-    if let Some([last, line]) = lines.get(columns * 2..=columns * 2 + 1)
-        && (Row::new(line).characters.len() != Row::new(last).characters.len()
-            || lines.len().is_multiple_of(2))
-    {
-        let expected = format!("the end of the text after {columns} rows of cells");
-        return Err(line.unexpected(0, expected, quoted(line.text())));
-    }
-    if lines.len().is_multiple_of(2) {
-        return Err(ParseError::Ended {
-            line: lines.len() + 1,
-            expected: "a row of posts and walls".to_owned(),
-        });
-    }
-    if rows != columns {
-        return Err(ParseError::NotSquare { columns, rows });
-    }
-    Ok(dimension)
-}
-
-/// One line, with access by character.
-struct Row<'a> {
-    line: Line<'a>,
-    characters: Vec<char>,
-}
-
-impl<'a> Row<'a> {
-    fn new(line: &Line<'a>) -> Self {
-        Self {
-            line: *line,
-            characters: line.text().chars().collect(),
-        }
-    }
-
-    fn at(&self, index: usize) -> Option<char> {
-        self.characters.get(index).copied()
-    }
-
-    fn unexpected(&self, index: usize, expected: impl Into<String>) -> ParseError {
-        let found = quoted_character(self.at(index));
-        self.line.unexpected(index, expected, found)
-    }
-
-    /// Requires the line to end after that many cells and a post.
-    fn end(&self, columns: usize) -> Result<(), ParseError> {
-        let length = columns * CELL_WIDTH + 1;
-        if self.characters.len() <= length {
-            return Ok(());
-        }
-        let rest: String = self.characters[length..].iter().collect();
-        let expected = format!("the end of the line after {columns} cells");
-        Err(self.line.unexpected(length, expected, quoted(&rest)))
-    }
 }
 
 /// A maze while its picture is being read.
@@ -229,7 +167,7 @@ impl Picture {
             Some('S') => {
                 if let Some(first) = self.start {
                     return Err(ParseError::SecondStart {
-                        line: row.line.number(),
+                        line: row.number(),
                         column: index + 2,
                         first,
                     });
@@ -251,12 +189,6 @@ impl Picture {
         };
         Ok(Maze::new(self.walls, start, goal)?)
     }
-}
-
-/// The y of the cells below the `above`-th row of posts from the top.
-fn cell_row(dimension: u8, above: usize) -> u8 {
-    let above = u8::try_from(above).expect("a picture has at most 64 rows of cells");
-    dimension - 1 - above
 }
 
 pub(super) fn print(maze: &Maze, style: Style) -> String {

@@ -30,6 +30,17 @@ const MAP: &str = "\
 +---+---+---+
 ";
 
+/// The same maze as [`MAP`].
+const BLOCKS: &str = "\
+1111111
+1000001
+1011101
+1000101
+1110101
+1010001
+1111111
+";
+
 #[test]
 fn good_files() {
     let udacity = Ok((Format::Udacity, ZERO, center(3)));
@@ -59,6 +70,12 @@ fn good_files() {
     let marked = marked.replace('o', "+");
     check(&marked, Ok((Format::Map, Cell::new(2, 1), goal)));
 
+    let blocks = Ok((Format::Blocks, ZERO, center(3)));
+    check(BLOCKS, blocks);
+    check(BLOCKS.trim_end(), blocks);
+    check(&BLOCKS.replace('\n', "\r\n"), blocks);
+    check(&format!("\u{feff}{BLOCKS}\n \n"), blocks);
+
     let num = print(&parse(MAP).expect("a maze").maze, Format::Num).expect("no marks");
     let backwards: Vec<&str> = num.lines().rev().collect();
     let tabs = format!("  {}", num.replace(' ', "\t ").replace('\n', " \n"));
@@ -76,6 +93,7 @@ fn all_formats_describe_the_same_maze() {
     let texts = [
         (Format::Udacity, "3\n0,3,6\n3,12,10\n9,5,12".to_owned()),
         (Format::Map, MAP.to_owned()),
+        (Format::Blocks, BLOCKS.to_owned()),
         (
             Format::Num,
             "0 0 1 1 1 1\n0 1 0 0 1 1\n0 2 1 0 0 1\n\
@@ -96,13 +114,14 @@ fn text_that_is_no_maze() {
         check(blank, Err("the text is empty"));
     }
     let what = "line 1: expected the dimension alone, a row of posts such as `o---o`, \
-                or the six numbers of a cell, found ";
+                the six numbers of a cell, or a row of blocks such as `11111`, found ";
     let unknown = [
         ("# My maze\n", "`# My maze`"),
         ("\n12\n", "nothing"),
         ("      \n12\n", "`      `"),
         ("twelve", "`twelve`"),
         ("-3", "`-3`"),
+        ("1111x", "`1111x`"),
         ("o--o", "`o--o`"),
         ("\u{1b}[2Jboo", "`\\u{1b}[2Jboo`"),
         (
@@ -207,6 +226,124 @@ fn bad_udacity_files() {
     for (text, message) in bad {
         check(text, Err(message));
     }
+}
+
+#[test]
+fn bad_blocks() {
+    // (text to replace once, replacement, message)
+    let bad = [
+        (
+            "1011101",
+            "1001101",
+            "line 3, column 3: expected `1` (a post), found `0`",
+        ),
+        (
+            "1000101",
+            "1100101",
+            "line 4, column 2: expected `0` (a cell is open), found `1`",
+        ),
+        (
+            "1011101",
+            "10x1101",
+            "line 3, column 3: expected `1` (a post), found `x`",
+        ),
+        (
+            "1011101",
+            "10 1101",
+            "line 3, column 3: expected `1` (a post), found a space",
+        ),
+        (
+            "1011101",
+            "1211101",
+            "line 3, column 2: expected `1` or `0`, found `2`",
+        ),
+        (
+            "1000101",
+            "10\u{7}0101",
+            "line 4, column 3: expected `1` or `0`, found `\\u{7}`",
+        ),
+        (
+            "1011101",
+            "0011101",
+            "line 3, column 1: expected `1` (the perimeter is closed), found `0`",
+        ),
+        (
+            "1000101",
+            "1000100",
+            "line 4, column 7: expected `1` (the perimeter is closed), found `0`",
+        ),
+        (
+            "1111111",
+            "1101111",
+            "line 1, column 3: expected `1` (the perimeter is closed), found `0`",
+        ),
+        (
+            "1010001\n1111111",
+            "1010001\n1111110",
+            "line 7, column 7: expected `1` (the perimeter is closed), found `0`",
+        ),
+        (
+            "1000101",
+            "100010",
+            "line 4, column 7: expected `1` (the perimeter is closed), found the end of the line",
+        ),
+        (
+            "1011101",
+            "101110",
+            "line 3, column 7: expected `1` (the perimeter is closed), found the end of the line",
+        ),
+        (
+            "1000101",
+            "10001010",
+            "line 4, column 8: expected the end of the line after 3 cells, found `0`",
+        ),
+        (
+            "1111111\n1000001",
+            "11111111\n1000001",
+            "line 1, column 9: expected a whole number of cells, two characters each, and a wall, \
+             found the end of the line",
+        ),
+        (
+            "1010001\n1111111\n",
+            "1010001\n1111111\nMilestone 3",
+            "line 8, column 1: expected the end of the text after 3 rows of cells, found `Milestone 3`",
+        ),
+        (
+            "1010001\n1111111\n",
+            "1010001\n",
+            "line 7: expected a row of walls, found the end of the text",
+        ),
+        (
+            "1010001\n1111111\n",
+            "",
+            "the maze has 3 columns and 2 rows of cells; mazes are square",
+        ),
+    ];
+    for (good, change, message) in bad {
+        check(&BLOCKS.replacen(good, change, 1), Err(message));
+    }
+    // The example of the report.
+    check(
+        "11111\n10001\n11101\n10001\n10101\n10101\n11111",
+        Err("the maze has 2 columns and 3 rows of cells; mazes are square"),
+    );
+    check(
+        "11111\n10001\n10101\n10001\n11111",
+        Err("start (0, 0) lies in the goal"),
+    );
+    for cells in [65, 20_000] {
+        check(
+            &"1".repeat(2 * cells + 1),
+            Err(&format!(
+                "a width of {cells} is outside the 2 to 64 cells that mazes have"
+            )),
+        );
+    }
+    // Too short for blocks, so it can only be meant as a dimension.
+    check(
+        "111\n101\n111",
+        Err("line 1, column 1: expected a dimension from 2 to 64, found `111`"),
+    );
 }
 
 #[test]
@@ -412,7 +549,12 @@ fn bad_pictures() {
 #[test]
 fn every_wrong_character_is_found_where_it_is() {
     let maze = parse(MAP).expect("a maze").maze;
-    for format in [Format::Udacity, Format::Competition, Format::Num] {
+    for format in [
+        Format::Udacity,
+        Format::Competition,
+        Format::Num,
+        Format::Blocks,
+    ] {
         let good = print(&maze, format).expect("the usual start and goal");
         for (number, good_line) in good.lines().enumerate() {
             for at in 0..good_line.len() {
@@ -424,7 +566,7 @@ fn every_wrong_character_is_found_where_it_is() {
                     panic!("line and column are known: {wrong}");
                 };
                 let begin = match format {
-                    Format::Competition | Format::Map => at,
+                    Format::Competition | Format::Map | Format::Blocks => at,
                     Format::Udacity | Format::Num => {
                         let before = good_line[..at].rfind([',', ' ']);
                         before.map_or(0, |separator| separator + 1)
@@ -453,7 +595,7 @@ fn only_competition_text_holds_marks() {
     let start = Maze::new(walls.clone(), Cell::new(1, 0), center(5)).expect("fits");
     let room = Area::new(Cell::new(3, 3), 2, 1).expect("not empty");
     let goal = Maze::new(walls, ZERO, room).expect("fits");
-    for format in [Format::Udacity, Format::Map, Format::Num] {
+    for format in [Format::Udacity, Format::Map, Format::Num, Format::Blocks] {
         assert_eq!(
             print(&start, format).expect_err("no mark").to_string(),
             format!(
@@ -484,7 +626,7 @@ fn format_names_are_parsed() {
             .parse::<Format>()
             .expect_err("no format")
             .to_string(),
-        "unknown maze format `ma\\tp`, expected udacity, competition, map or num"
+        "unknown maze format `ma\\tp`, expected udacity, competition, map, num or blocks"
     );
 }
 
@@ -550,7 +692,7 @@ proptest! {
     }
 
     #[test]
-    fn no_text_panics(text in "(|3\n|o---o---o\n|0 0 )[ -~\n\t\r,o|SG0-9é\u{0}\u{202e}-]{0,80}") {
+    fn no_text_panics(text in "(|3\n|o---o---o\n|0 0 |11111\n1)[ -~\n\t\r,o|SG0-9é\u{0}\u{202e}-]{0,80}") {
         let outcome = parse(&text);
         for format in Format::ALL {
             drop(parse_as(&text, format));
