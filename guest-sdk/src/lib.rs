@@ -10,6 +10,7 @@
 //! | keep pose, map and budget together | [`Tracker`] |
 //! | find the fewest steps | [`Search`] |
 //! | find cheapest paths under costs of your own | [`AStar`] |
+//! | search as simple robots do, by counting squares | [`Expansion`] |
 //! | roll dice | [`Random`] |
 //! | tell the people who watch something | [`journal`] |
 //! | test a robot natively, without WebAssembly | [`testing`] |
@@ -20,6 +21,7 @@
 mod astar;
 #[doc(hidden)]
 pub mod bindings;
+mod expansion;
 mod geometry;
 pub mod journal;
 mod map;
@@ -36,6 +38,7 @@ pub use astar::{AStar, Path};
 pub use bindings::wasmouse::robot::types::{
     Action, Area, Briefing, BudgetScope, Cell, Heading, Move, Sensors, Turn,
 };
+pub use expansion::Expansion;
 pub use geometry::DIMENSION_MAX;
 pub use map::{Map, News, View, Wall};
 pub use passages::{CellSet, Passages};

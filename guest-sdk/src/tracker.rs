@@ -3,7 +3,10 @@
 //! It decides nothing; it keeps the books. Robots ask it what they know, and
 //! answer with the actions it makes, so that what it believes stays true.
 
-use crate::{Action, Briefing, BudgetScope, Cell, Heading, Map, News, Pose, Sensors, Turn, View};
+use crate::{
+    Action, Briefing, BudgetScope, Cell, CellSet, Heading, Map, News, Pose, Search, Sensors, Turn,
+    View,
+};
 
 /// Which of the two runs is on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -159,6 +162,44 @@ impl Tracker {
             BudgetScope::BothRuns => here.saturating_add(speed) <= self.steps_left,
             BudgetScope::EachRun => here <= self.steps_left && speed <= self.briefing.budget,
         }
+    }
+
+    /// Whether the budget allows `exploration` more steps of run 1, then the reset,
+    /// then a race over the fewest steps through walls known to be open; `false`
+    /// while no such way from the start to the goal is known.
+    ///
+    /// A robot that resets as soon as this is `false` for one more step, once
+    /// [`may_reset`](Self::may_reset) allows it, can always finish. `search` is only
+    /// used, and then filled anew, when the budget is short of one step per cell.
+    ///
+    /// ```
+    /// use wasmouse_sdk::{Area, Briefing, Cell, Search, Sensors, Tracker};
+    ///
+    /// let briefing = Briefing {
+    ///     goal: Area::new(Cell::new(0, 5), 1, 1),
+    ///     budget: 10,
+    ///     ..Briefing::contest(12)
+    /// };
+    /// let mut search = Search::new(12, 3);
+    /// let mut tracker = Tracker::new(&briefing);
+    /// assert!(!tracker.can_afford_race(1, &mut search));
+    /// tracker.observe(Sensors { left: 0, front: 5, right: 0 });
+    /// // 2 steps in run 2, 1 for the reset.
+    /// assert!(tracker.can_afford_race(7, &mut search));
+    /// assert!(!tracker.can_afford_race(8, &mut search));
+    /// ```
+    pub fn can_afford_race(&self, exploration: u32, search: &mut Search) -> bool {
+        let cells = self.briefing.dimension.pow(2);
+        if self.goal_seen && self.can_afford(exploration, cells) {
+            // No race is longer than that, so there is no need to search.
+            return true;
+        }
+        let start = self.briefing.start;
+        let goal = CellSet::from(self.briefing.goal);
+        search.fill_until(self.map.passages(View::Pessimistic), &goal, start);
+        search
+            .steps(start)
+            .is_some_and(|race| self.can_afford(exploration, race))
     }
 
     fn may_be_open(&self, heading: Heading) -> bool {

@@ -34,11 +34,9 @@
 //!
 //! Settings: only 0.
 
-mod expansion;
-
-use expansion::Expansion;
 use wasmouse_sdk::{
-    Action, Briefing, Cell, CellSet, Robot, Sensors, Tracker, Turn, View, export_robot,
+    Action, Briefing, Cell, CellSet, Expansion, Hop, Robot, Sensors, Tracker, Turn, View,
+    export_robot,
 };
 
 /// The robot.
@@ -73,18 +71,27 @@ impl Robot for CountExpansion {
         if self.tracker.may_reset() && here == self.favourite {
             return self.tracker.reset();
         }
-        let passages = self.tracker.map().passages(View::Optimistic);
-        let favourite = CellSet::from(self.favourite);
-        let hop = self.expansion.first_hop(passages, here, &favourite);
+        let hop = self.hop_to(&CellSet::from(self.favourite));
         if hop.is_none() && self.tracker.may_reset() {
             // The favourite is walled in, but the robot has stood in the goal.
             return self.tracker.reset();
         }
-        let hop = hop.or_else(|| self.expansion.first_hop(passages, here, &self.goal));
+        let hop = hop.or_else(|| self.hop_to(&self.goal.clone()));
         match hop {
             Some(hop) => self.tracker.go(hop.heading, hop.cells),
             None => self.tracker.turn(Turn::Right),
         }
+    }
+}
+
+impl CountExpansion {
+    /// The first stretch of the way that the expansion finds: breadth first, which
+    /// is to go on from all squares in the order in which they were opened.
+    fn hop_to(&mut self, targets: &CellSet) -> Option<Hop> {
+        let passages = self.tracker.map().passages(View::Optimistic);
+        let here = self.tracker.cell();
+        let is_open = |cell, side| passages.is_open(cell, side);
+        self.expansion.first_hop(is_open, here, targets, |_, _| 0)
     }
 }
 

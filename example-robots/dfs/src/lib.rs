@@ -157,17 +157,7 @@ impl DepthFirst {
         if !self.explores_everything {
             return false;
         }
-        let cells = self.tracker.briefing().dimension.pow(2);
-        if self.tracker.can_afford(1, cells) {
-            // No race is longer than that, so there is no need to search.
-            return true;
-        }
-        let start = self.tracker.briefing().start;
-        let passages = self.tracker.map().passages(View::Pessimistic);
-        self.search.fill_until(passages, &self.goal, start);
-        self.search
-            .steps(start)
-            .is_some_and(|race| self.tracker.can_afford(1, race))
+        self.tracker.can_afford_race(1, &mut self.search)
     }
 
     /// The fewest steps through walls known to be open.

@@ -112,7 +112,7 @@ impl Flood {
     /// The first unknown wall on the best path from start to goal that may exist;
     /// `None` when there is nothing more to ask, or no time.
     fn next_question(&mut self) -> Option<Question> {
-        if !self.explores_on || !self.has_time() {
+        if !self.explores_on || !self.tracker.can_afford_race(1, &mut self.questions) {
             return None;
         }
         let start = self.tracker.briefing().start;
@@ -130,21 +130,6 @@ impl Flood {
             }
         }
         None
-    }
-
-    /// Whether one more step leaves enough of the budget for the race.
-    fn has_time(&mut self) -> bool {
-        let cells = self.tracker.briefing().dimension.pow(2);
-        if self.tracker.can_afford(1, cells) {
-            // No race is longer than that, so there is no need to search.
-            return true;
-        }
-        let start = self.tracker.briefing().start;
-        let passages = self.tracker.map().passages(View::Pessimistic);
-        self.questions.fill_until(passages, &self.goal, start);
-        self.questions
-            .steps(start)
-            .is_some_and(|race| self.tracker.can_afford(1, race))
     }
 
     /// Drives towards the cell of the question; there, looks at the wall.
