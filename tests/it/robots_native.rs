@@ -1,11 +1,12 @@
 //! What every example robot owes in every maze it can meet: no panic, no bump, no
-//! refused reset. And what two of them owe in legal ones: to finish.
+//! refused reset. And what some of them owe in legal ones: to finish.
 //!
 //! Played natively in the SDK's arena, which is fast enough for thousands.
 
 use robot_count_expansion::CountExpansion;
 use robot_dfs::DepthFirst;
 use robot_flood::Flood;
+use robot_rai::Rai;
 use robot_random::RandomWalk;
 use robot_wall_follower::WallFollower;
 use wasmouse::maze::format::{self, Format};
@@ -14,8 +15,8 @@ use wasmouse::maze::{self, Walls};
 use wasmouse_sdk::testing::{self, PlayOptions, Played};
 use wasmouse_sdk::{Area, BudgetScope, Cell, Random, Robot};
 
-/// Flood and depth-first search finish every legal maze within the budget, in each
-/// of their settings.
+/// Flood, depth-first search and Rai's planner finish every legal maze within the
+/// budget, in each of their settings.
 #[test]
 fn finish_legal_mazes() {
     let kinds = [
@@ -45,6 +46,14 @@ fn finish_legal_mazes() {
                 let dfs = play::<DepthFirst>(&text, &options);
                 assert!(dfs.finished, "dfs {setting} in {name}: {}", dfs.summary());
             }
+            for setting in 0..5 {
+                let options = PlayOptions {
+                    setting,
+                    ..PlayOptions::default()
+                };
+                let rai = play::<Rai>(&text, &options);
+                assert!(rai.finished, "rai {setting} in {name}: {}", rai.summary());
+            }
         }
     }
 }
@@ -66,6 +75,8 @@ fn survive_any_maze() {
         finished += u32::from(play::<Flood>(&text, &options).finished);
         play::<DepthFirst>(&text, &options);
         play::<WallFollower>(&text, &options);
+        options.setting = round % 5;
+        play::<Rai>(&text, &options);
         options.setting = 0;
         play::<RandomWalk>(&text, &options);
         play::<CountExpansion>(&text, &options);

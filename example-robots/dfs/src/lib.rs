@@ -164,10 +164,7 @@ impl DepthFirst {
     fn race(&mut self) -> Action {
         let pose = self.tracker.pose();
         let passages = self.tracker.map().passages(View::Pessimistic);
-        let hop = self.search.first_hop(passages, pose).or_else(|| {
-            self.search.fill_until(passages, &self.goal, pose.cell);
-            self.search.route(passages, pose).next()
-        });
+        let hop = self.search.next_hop(passages, &self.goal, pose);
         match hop {
             Some(hop) => self.tracker.go(hop.heading, hop.cells),
             None => self.tracker.turn(Turn::Right),

@@ -150,6 +150,32 @@ impl Search {
         (route.count() + 1 == steps).then_some(first)
     }
 
+    /// The first hop of a shortest route to a target: [`first_hop`](Self::first_hop)
+    /// of the last search where that is still whole, of a new one otherwise; `None`
+    /// when there is no way, or no need for one.
+    ///
+    /// For a robot on its way to one set of targets: call it once a step, with the
+    /// same targets and with passages of which none opens on the way.
+    ///
+    /// ```
+    /// use wasmouse_sdk::{Cell, CellSet, Heading, Hop, Map, Pose, Search, View, Wall};
+    ///
+    /// let mut map = Map::new(12);
+    /// let (targets, pose) = (CellSet::from(Cell::new(0, 5)), Pose::at_start(Cell::new(0, 0)));
+    /// let mut search = Search::new(12, 3);
+    /// let hop = search.next_hop(map.passages(View::Optimistic), &targets, pose);
+    /// assert_eq!(hop, Some(Hop { heading: Heading::Up, cells: 3 }));
+    /// map.set(Cell::new(0, 0), Heading::Up, Wall::Closed);
+    /// let hop = search.next_hop(map.passages(View::Optimistic), &targets, pose);
+    /// assert_eq!(hop.map(|it| it.heading), Some(Heading::Right));
+    /// ```
+    pub fn next_hop(&mut self, passages: &Passages, targets: &CellSet, pose: Pose) -> Option<Hop> {
+        self.first_hop(passages, pose).or_else(|| {
+            self.fill_until(passages, targets, pose.cell);
+            self.route(passages, pose).next()
+        })
+    }
+
     fn preferred_hop(&self, passages: &Passages, pose: Pose) -> Option<Hop> {
         let goal = self.steps(pose.cell)?.checked_sub(1)?;
         let ahead = pose.heading;
