@@ -13,6 +13,8 @@ mod cli;
 mod conformance;
 /// The same bytes from the same contest.
 mod determinism;
+/// Every bundled robot: native and component alike, and who has to finish.
+mod every_robot;
 /// Maze files: reading, round trips, and a survey counted in another way.
 mod formats;
 /// Robots in WebAssembly text, and a good one beside them.
@@ -39,6 +41,8 @@ mod shared;
 mod solver;
 /// Closed pipes, full disks and terminals.
 mod streams;
+/// `wasmouse study` and the page that it writes.
+mod study;
 /// Robots that fail, and the verdicts on them.
 mod verdicts;
 /// The hash of the WIT beside its history.

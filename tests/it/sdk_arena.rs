@@ -169,7 +169,8 @@ fn agrees_with_the_simulation() {
     assert!(finished > 20, "only {finished} finished: a weak test");
 }
 
-fn options(rules: &Ruleset, seed: u64) -> PlayOptions {
+/// Native options for a ruleset.
+pub fn options(rules: &Ruleset, seed: u64) -> PlayOptions {
     PlayOptions {
         seed,
         budget: rules.budget,
@@ -183,7 +184,9 @@ fn options(rules: &Ruleset, seed: u64) -> PlayOptions {
     }
 }
 
-fn check_against(mut simulation: Simulation<'_>, played: &Played, name: &str) {
+/// Feeds the answers of a native match to the host's simulation and requires the
+/// same readings, counts and end.
+pub fn check_against(mut simulation: Simulation<'_>, played: &Played, name: &str) {
     for stop in &played.stops {
         assert_eq!(simulation.end(), None, "{name}");
         let (cell, sensors) = (simulation.cell(), simulation.sense());

@@ -31,6 +31,7 @@ mod page;
 mod robots;
 mod run;
 mod setup;
+mod study;
 mod terminal;
 mod toolchain;
 mod watch;
@@ -56,6 +57,7 @@ enum Command {
     Run(run::Args),
     Robots(list::Args),
     Inspect(inspect::Args),
+    Study(study::Args),
     /// Look at mazes: check, convert, draw, solve and generate them.
     Maze(maze::Args),
     New(new::Args),
@@ -72,6 +74,7 @@ pub fn main() -> ExitCode {
         Command::Run(args) => run::run(&args),
         Command::Robots(args) => list::run(&args),
         Command::Inspect(args) => inspect::run(&args),
+        Command::Study(args) => study::run(&args),
         Command::Maze(args) => maze::run(args),
         Command::New(args) => new::run(&args),
         Command::Build(args) => build::run(&args),

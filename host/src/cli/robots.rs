@@ -70,6 +70,21 @@ impl Specification {
         })
     }
 
+    /// All bundled robots, each once for every setting.
+    pub fn bundled_in_every_setting() -> Vec<Self> {
+        let mut all = Vec::new();
+        for robot in bundled() {
+            let source = Source::Bundled(robot);
+            let values = robot.settings.iter().map(|setting| setting.value);
+            let only = robot.settings.is_empty().then_some(0);
+            all.extend(values.chain(only).map(|setting| Self {
+                source: source.clone(),
+                setting,
+            }));
+        }
+        all
+    }
+
     fn file(path: &str, setting: u32) -> Self {
         let source = Source::File(path.into());
         Self { source, setting }
@@ -87,17 +102,39 @@ impl Specification {
         }
     }
 
-    /// The bundled name or the file name without its ending, and the setting.
-    fn short_name(&self) -> String {
-        let name = match &self.source {
+    /// Whether it comes with the host.
+    pub const fn is_bundled(&self) -> bool {
+        matches!(self.source, Source::Bundled(_))
+    }
+
+    /// The bundled name or the file name without its ending.
+    pub fn robot_name(&self) -> String {
+        match &self.source {
             Source::Bundled(robot) => robot.name.to_owned(),
             Source::File(path) => path
                 .file_stem()
                 .unwrap_or(path.as_os_str())
                 .to_string_lossy()
                 .into_owned(),
-        };
-        self.with_setting(name)
+        }
+    }
+
+    /// The name of a bundled robot's setting, the number of a file's; `None` of
+    /// robots without settings and of files with the setting 0.
+    pub fn setting_name(&self) -> Option<String> {
+        match &self.source {
+            Source::Bundled(robot) => {
+                let mut settings = robot.settings.iter();
+                let setting = settings.find(|it| it.value == self.setting)?;
+                Some(setting.name.to_owned())
+            }
+            Source::File(_) => (self.setting != 0).then(|| self.setting.to_string()),
+        }
+    }
+
+    /// The bundled name or the file name without its ending, and the setting.
+    fn short_name(&self) -> String {
+        self.with_setting(self.robot_name())
     }
 
     /// The bundled name or the whole path, and the setting.

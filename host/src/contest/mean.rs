@@ -1,11 +1,12 @@
-//! [`Mean`]: an exact average of scores.
+//! [`Mean`]: an exact average of scores, margins or differences.
 
 use std::cmp::Ordering;
 use std::fmt;
 
 use crate::sim::Score;
 
-/// The average of one or more scores of the same ruleset, as an exact fraction.
+/// The average of one or more scores or of what is made from scores, as an
+/// exact fraction.
 ///
 /// Orders exactly and displays with three decimals, rounded half to even.
 ///
@@ -21,15 +22,38 @@ use crate::sim::Score;
 pub struct Mean {
     /// Average times the denominator; negative for a difference of averages.
     numerator: i128,
+    /// At least 1.
     denominator: i128,
 }
 
 impl Mean {
+    /// A single number, given as a fraction.
+    ///
+    /// # Panics
+    ///
+    /// When `denominator` is less than 1.
+    pub const fn fraction(numerator: i128, denominator: i128) -> Self {
+        assert!(denominator >= 1, "a denominator is at least 1");
+        Self {
+            numerator,
+            denominator,
+        }
+    }
+
     /// How much larger this average is than another of as many scores.
     pub fn minus(self, other: Self) -> Self {
         Self {
             numerator: self.numerator * other.denominator - other.numerator * self.denominator,
             denominator: self.denominator * other.denominator,
+        }
+    }
+
+    /// This many times the average: the sum of what it is the average of.
+    #[must_use]
+    pub const fn times(self, count: u32) -> Self {
+        Self {
+            numerator: self.numerator * count as i128,
+            denominator: self.denominator,
         }
     }
 
@@ -75,6 +99,33 @@ impl FromIterator<Score> for Option<Mean> {
             denominator: divisor * count,
         })
     }
+}
+
+impl FromIterator<Mean> for Option<Mean> {
+    /// The average of numbers, each counted once; `None` of none.
+    ///
+    /// Exact as long as the denominators have few different prime factors, as
+    /// those of one ruleset have.
+    fn from_iter<I: IntoIterator<Item = Mean>>(numbers: I) -> Self {
+        let (mut sum, mut count) = (Mean::fraction(0, 1), 0);
+        for number in numbers {
+            let shared = gcd(sum.denominator, number.denominator);
+            let (ours, theirs) = (sum.denominator / shared, number.denominator / shared);
+            sum.numerator = sum.numerator * theirs + number.numerator * ours;
+            sum.denominator *= theirs;
+            count += 1;
+        }
+        sum.denominator *= count;
+        (count > 0).then_some(sum)
+    }
+}
+
+/// The greatest common divisor of two numbers that are at least 1.
+const fn gcd(mut a: i128, mut b: i128) -> i128 {
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    a
 }
 
 fn numerator(score: Score) -> i128 {
@@ -127,6 +178,18 @@ mod tests {
         assert_eq!(mean(&[]), None);
         assert_eq!(mean(&[(10, 30)]), mean(&[(11, 0), (9, 60)]));
         assert!(mean(&[(10, 1), (10, 0)]) > mean(&[(10, 0)]));
+    }
+
+    #[test]
+    fn fractions_are_averaged_exactly() {
+        let average = |numbers: &[(i128, i128)]| -> Option<Mean> {
+            let numbers = numbers.iter();
+            numbers.map(|&(a, b)| Mean::fraction(a, b)).collect()
+        };
+        assert_eq!(average(&[]), None);
+        assert_eq!(average(&[(1, 2), (1, 3)]), average(&[(5, 12)]));
+        assert_eq!(average(&[(-1, 30), (1, 50)]), average(&[(-1, 150)]));
+        assert_eq!(average(&[(7, 30); 2000]), average(&[(7, 30)]));
     }
 
     #[test]

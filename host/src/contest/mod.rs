@@ -5,12 +5,18 @@
 //! on any number of threads and returns the results in the contest's own order,
 //! the same on one thread or many. Prints nothing and reads no files.
 
+mod benchmark;
 mod mean;
 mod run;
 mod standings;
+mod study;
+mod tally;
 
+pub use benchmark::Benchmark;
 pub use mean::Mean;
 pub use run::{
     Contest, ContestError, ContestMaze, Entrant, FailedMatch, MatchResult, Played, Progress,
 };
 pub use standings::{Standing, standings};
+pub use study::{Group, STUDY_QUICK, STUDY_SEEDS, Study, study_families};
+pub use tally::{Against, Regret, Tally};

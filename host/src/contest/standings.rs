@@ -2,8 +2,7 @@
 
 use std::cmp::Reverse;
 
-use super::{Contest, MatchResult, Mean};
-use crate::robot::Verdict;
+use super::{Contest, MatchResult, Mean, Tally};
 
 /// One line of the standings.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -65,38 +64,15 @@ fn key(line: &Standing) -> (Reverse<u32>, Option<Mean>) {
 }
 
 fn standing(contest: &Contest, entrant: usize, results: &[MatchResult]) -> Standing {
-    let mut line = Standing {
+    let tally = Tally::of(contest, results);
+    Standing {
         rank: None,
         entrant,
-        matches: 0,
-        finished: 0,
-        goal_reached: 0,
-        faults: 0,
-        score: None,
-        regret: None,
-    };
-    let (mut scores, mut floors) = (Vec::new(), Vec::new());
-    for result in results {
-        line.matches += 1;
-        match &result.outcome.verdict {
-            Verdict::Finished(score) => {
-                line.finished += 1;
-                scores.push(*score);
-                floors.extend(contest.mazes[result.maze].floor);
-            }
-            Verdict::BudgetUsedUp { goal_reached: true } => line.goal_reached += 1,
-            Verdict::BudgetUsedUp {
-                goal_reached: false,
-            } => {}
-            Verdict::Fault(_) => line.faults += 1,
-        }
+        matches: tally.matches,
+        finished: tally.finished,
+        goal_reached: tally.goal_reached,
+        faults: tally.faults,
+        score: tally.score,
+        regret: tally.regret.map(|regret| regret.total),
     }
-    // A maze that a robot has finished can be solved, so there are as many floors.
-    let floor: Option<Mean> = floors.into_iter().collect();
-    line.score = scores.into_iter().collect();
-    line.regret = line
-        .score
-        .zip(floor)
-        .map(|(score, floor)| score.minus(floor));
-    line
 }

@@ -10,10 +10,12 @@ pub mod maze_check;
 pub mod maze_solve;
 pub mod page;
 pub mod picture;
+pub mod reference;
 pub mod replay;
 pub mod result;
 pub mod table;
 
+mod markdown;
 mod visible;
 
 pub use visible::visible;

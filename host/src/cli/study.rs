@@ -1,0 +1,296 @@
+//! `wasmouse study`: the reference page, `docs/REFERENCE.md`.
+//!
+//! Plays the bundled robots in the official mazes and in hundreds of generated
+//! ones. What is compared with what is decided in [`crate::report::reference`].
+
+use std::env;
+use std::fs::{self, File};
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+
+use super::exit::Exit;
+use super::failure::Failure;
+use super::mazes::{self, Legality};
+use super::output::{self, Existing};
+use super::robots::{self, Specification};
+use super::run;
+use super::setup::SetupArgs;
+use crate::contest::{
+    Contest, ContestMaze, Group, MatchResult, STUDY_QUICK, STUDY_SEEDS, Study, study_families,
+};
+use crate::maze::bundled as bundled_mazes;
+use crate::report::reference::published::{OFFICIAL, RANDOM_TRIES};
+use crate::report::reference::{Competitor, MARK, Reference};
+use crate::robot::Host;
+
+/// Where a file with the official mazes is looked for when `--official` is not
+/// given: in this folder of the shared material.
+const SHARED_VARIABLE: &str = "WASMOUSE_SHARED";
+const SHARED_FOLDER: &str = "mazes/udacity";
+
+/// Tries of the random robot in maze 01.
+const TRIES: u64 = 600;
+const TRIES_QUICK: u64 = 60;
+
+const LONG_HELP: &str = "\
+Mazes: the official ones, of which wasmouse comes with maze 01 alone; 100 of
+each size from 12 to 20 from each of the three generators, with the seeds
+1000001 to 1000100. The same version writes the same bytes on any number of
+threads. A page that is there already is replaced if an earlier study wrote it.
+
+Examples:
+  wasmouse study --official mazes            all bundled robots: docs/REFERENCE.md
+  wasmouse study --quick -o quick.md         4 mazes of each size instead of 100
+  wasmouse study my-robot.wasm flood -o my.md
+
+Exit codes:
+  0  the page was written; a robot that did not finish a maze is on it
+  4  the page was written; a robot was refused or ended a match with a fault
+  130  interrupted; no page was written";
+
+/// Write the reference page: robots in official and generated mazes.
+///
+/// Puts each robot's scores beside those of the report that it comes from, and
+/// plays hundreds of generated mazes: finished matches, benchmarks, regret and
+/// fuel, by size and generator. The page is Markdown.
+#[derive(clap::Args, Debug)]
+#[command(after_long_help = format!("{}\n\n{LONG_HELP}", robots::SPECIFICATION_HELP))]
+pub struct Args {
+    /// Robots to study; by default every bundled one in every setting
+    #[arg(value_name = "ROBOT")]
+    robots: Vec<String>,
+    /// The page
+    #[arg(long, short, value_name = "FILE", default_value = "docs/REFERENCE.md")]
+    output: PathBuf,
+    /// The folder with test_maze_02.txt and test_maze_03.txt; by default
+    /// mazes/udacity in the folder $WASMOUSE_SHARED, if there are any
+    #[arg(long, value_name = "FOLDER")]
+    official: Option<PathBuf>,
+    /// Play few generated mazes: 4 of each size and generator
+    #[arg(long)]
+    quick: bool,
+    /// Replace FILE even if it was not written by a study
+    #[arg(long)]
+    force: bool,
+    #[command(flatten)]
+    setup: SetupArgs,
+}
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<Exit, Failure> {
+    let existing = args.existing()?;
+    let specifications = args.specifications()?;
+    let mut mazes = Vec::new();
+    let official = args.official_mazes(&mut mazes)?;
+    let groups = args.groups(&mut mazes);
+    let host = args.setup.host()?;
+    let rules = args.setup.rules;
+    let contest = Contest {
+        entrants: robots::load(&specifications, &host)?,
+        mazes,
+        seeds: vec![0],
+        rules,
+    };
+    let threads = args.setup.threads();
+    let played = run::play(&contest, &host, threads)?;
+    let mut exit = run::exit(&contest, &played);
+    let mut tries = None;
+    if is_whole(exit)
+        && let Some(contest) = args.tries(&specifications, &contest, &host)?
+    {
+        let played = run::play(&contest, &host, threads)?;
+        let tries_exit = run::exit(&contest, &played);
+        if !is_whole(tries_exit) {
+            exit = tries_exit;
+        }
+        tries = Some((contest, played.results));
+    }
+    if !is_whole(exit) {
+        tell!("`{}` was not written", args.output.display());
+        return Ok(exit);
+    }
+    let results = played.results;
+    run::tell_failures(&contest, &results);
+    let competitors: Vec<Competitor> = specifications.iter().map(competitor).collect();
+    let page = Reference {
+        study: Study {
+            contest: &contest,
+            results: &results,
+            groups: &groups,
+        },
+        competitors: &competitors,
+        official,
+        tries: as_pair(&tries),
+        command: args.command(&official),
+    };
+    output::save(&args.output, page.to_markdown().as_bytes(), existing)?;
+    tell!("wrote {}", args.output.display());
+    Ok(exit)
+}
+
+/// Whether every match was played; a page of less would mislead.
+const fn is_whole(exit: Exit) -> bool {
+    !matches!(exit, Exit::Interrupted | Exit::Host)
+}
+
+fn as_pair(tries: &Option<(Contest, Vec<MatchResult>)>) -> Option<(&Contest, &[MatchResult])> {
+    tries
+        .as_ref()
+        .map(|(contest, results)| (contest, &results[..]))
+}
+
+fn competitor(specification: &Specification) -> Competitor {
+    Competitor {
+        robot: specification.robot_name(),
+        setting: specification.setting_name(),
+        is_bundled: specification.is_bundled(),
+    }
+}
+
+impl Args {
+    /// What to do with the page that is there, found out before anything is
+    /// played, so that no work is lost; makes its folder.
+    ///
+    /// The page is generated and made again often, so one that a study wrote
+    /// needs no `--force`; anything else may be somebody's work.
+    fn existing(&self) -> Result<Existing, Failure> {
+        let path = &self.output;
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder).map_err(|error| {
+                Failure::input(format!("failed to create `{}`: {error}", folder.display()))
+            })?;
+        }
+        if path.exists() && !path.is_file() {
+            return Err(Failure::input(format!(
+                "failed to write `{}`: not a regular file",
+                path.display()
+            )));
+        }
+        if self.force || is_page(path) {
+            return Ok(Existing::Replace);
+        }
+        if path.exists() {
+            return Err(Failure::input(format!(
+                "failed to write `{}`: the file is there and was not written by a study",
+                path.display()
+            ))
+            .hint("replace it with --force"));
+        }
+        Ok(Existing::Keep)
+    }
+
+    fn specifications(&self) -> Result<Vec<Specification>, Failure> {
+        if self.robots.is_empty() {
+            return Ok(Specification::bundled_in_every_setting());
+        }
+        let robots = self.robots.iter();
+        robots.map(|text| Specification::parse(text)).collect()
+    }
+
+    /// Puts the official mazes that are here behind the others and tells where
+    /// they are among them.
+    fn official_mazes(&self, mazes: &mut Vec<ContestMaze>) -> Result<[Option<usize>; 3], Failure> {
+        let folder = self.official_folder();
+        let mut places = [None; 3];
+        for (place, official) in places.iter_mut().zip(OFFICIAL) {
+            let is_bundled = bundled_mazes()
+                .iter()
+                .any(|maze| maze.name == official.name);
+            let spec = match (&folder, is_bundled) {
+                (_, true) => official.name.to_owned(),
+                (Some(folder), false) => folder
+                    .join(official.name)
+                    .with_extension("txt")
+                    .display()
+                    .to_string(),
+                (None, false) => continue,
+            };
+            for named in mazes::load(std::slice::from_ref(&spec), Legality::Contest)? {
+                let name = official.name.to_owned();
+                let maze = ContestMaze::new(name, named.maze, &self.setup.rules);
+                if maze.digest.hex() != official.sha256 {
+                    return Err(Failure::input(format!(
+                        "`{spec}` is not the official maze of that name: its digest is {}, not sha256:{}",
+                        maze.digest, official.sha256
+                    )));
+                }
+                *place = Some(mazes.len());
+                mazes.push(maze);
+            }
+        }
+        Ok(places)
+    }
+
+    fn official_folder(&self) -> Option<PathBuf> {
+        self.official.clone().or_else(|| {
+            let shared = PathBuf::from(env::var_os(SHARED_VARIABLE)?);
+            let folder = shared.join(SHARED_FOLDER);
+            folder.is_dir().then_some(folder)
+        })
+    }
+
+    fn groups(&self, mazes: &mut Vec<ContestMaze>) -> Vec<Group> {
+        let seeds = if self.quick { STUDY_QUICK } else { STUDY_SEEDS };
+        let families = study_families(seeds).into_iter();
+        families
+            .map(|spec| Group::append(spec, mazes, &self.setup.rules))
+            .collect()
+    }
+
+    /// The random robot alone in maze 01 with many seeds, if it takes part.
+    fn tries(
+        &self,
+        specifications: &[Specification],
+        contest: &Contest,
+        host: &Host,
+    ) -> Result<Option<Contest>, Failure> {
+        let random = specifications
+            .iter()
+            .find(|it| it.robot_name() == RANDOM_TRIES.robot && it.is_bundled());
+        let Some(random) = random else {
+            return Ok(None);
+        };
+        let count = if self.quick { TRIES_QUICK } else { TRIES };
+        let maze_01 = contest
+            .mazes
+            .iter()
+            .filter(|maze| maze.name == OFFICIAL[0].name);
+        Ok(Some(Contest {
+            entrants: robots::load(std::slice::from_ref(random), host)?,
+            mazes: maze_01.cloned().collect(),
+            seeds: (0..count).collect(),
+            rules: contest.rules,
+        }))
+    }
+
+    /// The command line that makes the page again, without paths of this machine.
+    fn command(&self, official: &[Option<usize>; 3]) -> String {
+        let mut words = vec!["wasmouse study".to_owned()];
+        words.extend(self.robots.iter().map(|robot| {
+            let path = Path::new(robot);
+            let name = path.file_name().unwrap_or(path.as_os_str());
+            name.to_string_lossy().into_owned()
+        }));
+        if official.iter().all(Option::is_some) {
+            words.push("--official FOLDER".to_owned());
+        }
+        if self.quick {
+            words.push("--quick".to_owned());
+        }
+        let rules = &self.setup.rules;
+        if rules != &crate::sim::Ruleset::default() {
+            words.push(format!("--rules {}", rules.name));
+        }
+        words.join(" ")
+    }
+}
+
+/// Whether a file begins as the pages of studies do.
+fn is_page(path: &Path) -> bool {
+    let mut begin = Vec::new();
+    let read = File::open(path).and_then(|file| {
+        let mut file = file.take(MARK.len() as u64);
+        file.read_to_end(&mut begin)
+    });
+    read.is_ok() && begin == MARK.as_bytes()
+}

@@ -1,0 +1,121 @@
+//! [`Study`]: a contest in hundreds of generated mazes, looked at by family and size.
+//!
+//! Minnett's report measures its robot in 100 mazes of each size from 12 to 20.
+//! A study does the same with every generator. It is a contest like any other;
+//! this file only says which mazes are in it and which of them belong together.
+
+use std::ops::{Range, RangeInclusive};
+
+use super::{Contest, ContestMaze, MatchResult, Tally};
+use crate::maze::generate::{GENERATED_DIMENSIONS, GenSpec, Kind};
+use crate::robot::Digest;
+use crate::sim::Ruleset;
+
+/// The seeds of a study's mazes: 100 for each family and size.
+///
+/// Far from the small numbers that people try robots with. No parameter of a
+/// bundled robot may be fixed on a maze of these seeds.
+pub const STUDY_SEEDS: RangeInclusive<u64> = 1_000_001..=1_000_100;
+
+/// The seeds of a quick study, the first of [`STUDY_SEEDS`].
+pub const STUDY_QUICK: RangeInclusive<u64> = 1_000_001..=1_000_004;
+
+/// Mazes of one family in a study.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Group {
+    /// What they are generated from.
+    pub spec: GenSpec,
+    /// Where they are in [`Contest::mazes`], ordered by dimension.
+    pub mazes: Range<usize>,
+}
+
+/// The families of a study, one for each generator, in all sizes.
+///
+/// # Panics
+///
+/// When `seeds` is empty or makes more mazes than a specification may stand for.
+pub fn study_families(seeds: RangeInclusive<u64>) -> Vec<GenSpec> {
+    let family = |kind| GenSpec::new(kind, GENERATED_DIMENSIONS, seeds.clone());
+    let families = Kind::ALL.into_iter().map(family);
+    let families = families.collect::<Result<_, _>>();
+    families.expect("one to a few thousand seeds")
+}
+
+/// What has been played of a contest, with the mazes that belong together.
+pub struct Study<'a> {
+    /// The contest; mazes outside all groups are no part of the study.
+    pub contest: &'a Contest,
+    /// Its results.
+    pub results: &'a [MatchResult],
+    /// The families.
+    pub groups: &'a [Group],
+}
+
+impl Group {
+    /// Generates the mazes of a family and puts them behind those of a contest.
+    pub fn append(spec: GenSpec, mazes: &mut Vec<ContestMaze>, rules: &Ruleset) -> Self {
+        let begin = mazes.len();
+        let generated = spec.expand();
+        mazes.extend(generated.map(|(name, maze)| ContestMaze::new(name, maze, rules)));
+        let mazes = begin..mazes.len();
+        Self { spec, mazes }
+    }
+
+    /// One digest for all its mazes: the digest of theirs, one behind the other.
+    pub fn digest(&self, contest: &Contest) -> Digest {
+        let mazes = &contest.mazes[self.mazes.clone()];
+        let bytes: Vec<u8> = mazes
+            .iter()
+            .flat_map(|maze| *maze.digest.as_bytes())
+            .collect();
+        Digest::of(&bytes)
+    }
+}
+
+impl<'a> Study<'a> {
+    /// The tally of an entrant in some of the groups, and in mazes of one
+    /// dimension only if one is given.
+    pub fn tally(&self, entrant: usize, groups: &[Group], dimension: Option<u8>) -> Tally {
+        let results = self.of_entrant(entrant).filter(|result| {
+            let is_inside = groups
+                .iter()
+                .any(|group| group.mazes.contains(&result.maze));
+            let size = self.contest.mazes[result.maze].maze.dimension();
+            is_inside && dimension.is_none_or(|dimension| dimension == size)
+        });
+        Tally::of(self.contest, results)
+    }
+
+    /// The results of an entrant in the mazes of all groups, in their order.
+    pub fn of_entrant(&self, entrant: usize) -> impl Iterator<Item = &'a MatchResult> {
+        // Results are in the contest's order, so those of an entrant are together.
+        let begin = self.results.partition_point(|it| it.entrant < entrant);
+        let end = self.results.partition_point(|it| it.entrant <= entrant);
+        let groups = self.groups;
+        self.results[begin..end].iter().filter(move |result| {
+            let mut groups = groups.iter();
+            groups.any(|group| group.mazes.contains(&result.maze))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_study_has_a_hundred_mazes_of_each_family_and_size() {
+        let families = study_families(STUDY_SEEDS);
+        let names: Vec<String> = families.iter().map(GenSpec::to_string).collect();
+        assert_eq!(
+            names,
+            [
+                "gen:division:12..=20:1000001..=1000100",
+                "gen:tree,loops=12:12..=20:1000001..=1000100",
+                "gen:braid:12..=20:1000001..=1000100",
+            ]
+        );
+        assert!(families.iter().all(|family| family.count() == 500));
+        assert!(STUDY_SEEDS.contains(STUDY_QUICK.end()));
+    }
+}

@@ -1,0 +1,206 @@
+//! What holds for every bundled robot in every setting: natively it plays the match
+//! that its component plays, and it finishes legal mazes unless it is known not to.
+
+use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use wasmouse::contest::{Contest, ContestMaze, Entrant, STUDY_SEEDS, study_families};
+use wasmouse::maze::format;
+use wasmouse::maze::{self, Maze};
+use wasmouse::robot::bundled::{BundledRobot, bundled};
+use wasmouse::robot::{Digest, Game, Host, Outcome, Recorder, Verdict};
+use wasmouse::sim::{Ruleset, Simulation, Trace};
+use wasmouse_sdk::testing::{self, PlayOptions, Played};
+
+use crate::sdk_arena;
+
+/// Plays a robot natively.
+type Native = fn(&str, &PlayOptions) -> Played;
+
+/// The bundled robots by name, as Rust types. A robot that is missing fails
+/// [`every_bundled_robot_is_in_the_table`].
+const NATIVE: &[(&str, Native)] = &[
+    (
+        "count-expansion",
+        testing::play::<robot_count_expansion::CountExpansion>,
+    ),
+    ("dfs", testing::play::<robot_dfs::DepthFirst>),
+    ("flood", testing::play::<robot_flood::Flood>),
+    ("random", testing::play::<robot_random::RandomWalk>),
+    (
+        "wall-follower",
+        testing::play::<robot_wall_follower::WallFollower>,
+    ),
+];
+
+/// Who need not finish: robot, and the setting if it is only one of them.
+const MAY_FAIL: &[(&str, Option<&str>)] = &[
+    ("dfs", Some("pure")),
+    ("random", None),
+    ("wall-follower", None),
+];
+
+/// Fuel of a match beyond which a robot counts as slow: unoptimised, as in these
+/// tests, it plays natively for many seconds, and a sample of mazes has to do.
+const SLOW_FUEL: u64 = 200_000_000;
+
+#[test]
+fn every_bundled_robot_is_in_the_table() {
+    let names: Vec<&str> = NATIVE.iter().map(|&(name, _)| name).collect();
+    let bundled: Vec<&str> = bundled().iter().map(|robot| robot.name).collect();
+    assert_eq!(
+        names, bundled,
+        "add the robot to `NATIVE` and to tests/Cargo.toml"
+    );
+}
+
+#[test]
+fn natively_robots_play_the_match_of_their_component() {
+    let rules = Ruleset::default();
+    let host = Host::new(rules.limits, 1, None).expect("address space for one match");
+    for (robot, (_, native)) in bundled().iter().zip(NATIVE) {
+        let component = host.admit(robot.component).expect("an admitted robot");
+        for (setting, name) in settings(robot) {
+            for bundled_maze in maze::bundled() {
+                let maze = format::parse(bundled_maze.text).expect("a maze").maze;
+                let game = Game {
+                    maze: &maze,
+                    rules: &rules,
+                    seed: 1,
+                    setting,
+                };
+                let mut recorder = Recorder::default();
+                let outcome = host.play(&component, &game, &mut recorder);
+                let outcome = outcome.expect("the host does not fail");
+                let options = PlayOptions {
+                    setting,
+                    ..sdk_arena::options(&rules, game.seed)
+                };
+                let played = native(bundled_maze.text, &options);
+                let place = format!("{}:{name} in {}", robot.name, bundled_maze.name);
+                check_same(&maze, &played, &outcome, &recorder.trace, &place);
+                if outcome.fuel.steps > SLOW_FUEL {
+                    println!("skipped: {place} is slow; the mazes after it are left out");
+                    break;
+                }
+            }
+        }
+    }
+}
+
+/// The same answers to the same readings: the host's simulation, fed with the
+/// native answers, agrees with every native reading and writes the trace of the
+/// component.
+fn check_same(maze: &Maze, played: &Played, outcome: &Outcome, trace: &Trace, place: &str) {
+    let rules = Ruleset::default();
+    let mut native = Trace::default();
+    sdk_arena::check_against(Simulation::new(maze, &rules, &mut native), played, place);
+    let mut steps = native.steps().iter().zip(trace.steps());
+    let differs = steps.position(|(native, component)| native != component);
+    assert_eq!(differs, None, "{place}: the first step that differs");
+    assert_eq!(native.steps().len(), trace.steps().len(), "{place}");
+    let steps = [played.exploration_steps, played.speed_steps];
+    assert_eq!(steps, outcome.steps, "{place}");
+    let finished = matches!(outcome.verdict, Verdict::Finished(_));
+    assert_eq!(played.finished, finished, "{place}");
+}
+
+fn settings(robot: &BundledRobot) -> Vec<(u32, &'static str)> {
+    if robot.settings.is_empty() {
+        return vec![(0, "0")];
+    }
+    let settings = robot.settings.iter();
+    settings
+        .map(|setting| (setting.value, setting.name))
+        .collect()
+}
+
+/// One maze of each family and size for every robot, and twenty for those that
+/// are not slow.
+#[test]
+fn robots_finish_a_sample_of_legal_mazes() {
+    let first = *STUDY_SEEDS.start();
+    let host = host();
+    let fuel = check_finished(&host, entrants(&host), first..=first);
+    let mut quick = entrants(&host);
+    quick.retain(|entrant| fuel[&entrant.name] <= SLOW_FUEL);
+    check_finished(&host, quick, first + 1..=first + 19);
+}
+
+#[test]
+#[ignore = "plays 1,500 mazes with every robot, which takes as long as `wasmouse study`"]
+fn robots_finish_all_mazes_of_the_study() {
+    let host = host();
+    check_finished(&host, entrants(&host), STUDY_SEEDS);
+}
+
+/// Threads of the contests in these tests.
+const THREADS: u32 = 2;
+
+fn host() -> Host {
+    let limits = Ruleset::default().limits;
+    Host::new(limits, THREADS, None).expect("address space for two matches")
+}
+
+/// The bundled robots in all settings in which they have to finish.
+fn entrants(host: &Host) -> Vec<Entrant> {
+    let may_fail = |robot: &str, setting: &str| {
+        let is_it = |&(name, only): &(&str, Option<&str>)| {
+            name == robot && only.is_none_or(|only| only == setting)
+        };
+        MAY_FAIL.iter().any(is_it)
+    };
+    let mut entrants = Vec::new();
+    for robot in bundled() {
+        let admitted = Arc::new(host.admit(robot.component).expect("an admitted robot"));
+        for (setting, name) in settings(robot) {
+            if !may_fail(robot.name, name) {
+                entrants.push(Entrant {
+                    name: format!("{}:{name}", robot.name),
+                    digest: Digest::of(robot.component),
+                    setting,
+                    admission: Ok(Arc::clone(&admitted)),
+                });
+            }
+        }
+    }
+    entrants
+}
+
+/// Plays mazes of every family and size, requires that all matches are finished,
+/// and returns the fuel of the most expensive match of each entrant.
+fn check_finished(
+    host: &Host,
+    entrants: Vec<Entrant>,
+    seeds: RangeInclusive<u64>,
+) -> BTreeMap<String, u64> {
+    let rules = Ruleset::default();
+    let mazes = study_families(seeds).into_iter().flat_map(|it| it.expand());
+    let contest = Contest {
+        entrants,
+        mazes: mazes
+            .map(|(name, maze)| ContestMaze::new(name, maze, &rules))
+            .collect(),
+        seeds: vec![0],
+        rules,
+    };
+    let played = contest.run(host, THREADS as usize, &AtomicBool::new(false), &|| ());
+    let results = played.expect("there are threads").results;
+    assert_eq!(results.len(), contest.matches());
+    let mut fuel = BTreeMap::new();
+    let mut failures = Vec::new();
+    for result in results {
+        let name = &contest.entrants[result.entrant].name;
+        let most: &mut u64 = fuel.entry(name.clone()).or_default();
+        *most = (*most).max(result.outcome.fuel.steps);
+        if !matches!(result.outcome.verdict, Verdict::Finished(_)) {
+            let maze = &contest.mazes[result.maze].name;
+            let verdict = result.outcome.verdict.title();
+            failures.push(format!("{name} in {maze}: {verdict}"));
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+    fuel
+}
