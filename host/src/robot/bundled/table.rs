@@ -8,7 +8,7 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
         description: "Lobato's count expansion, from the same report as the random walk.",
         settings: &[],
         component: include_bytes!("../../../../example-robots/prebuilt/count-expansion.wasm"),
-        sha256: "0e34e69e5a839ea992bd5755de0fcf46447b07cdc8041ef900bfaa40d5f505b0",
+        sha256: "473adcf699c3c20310f25f17ced6df54baabfdf0f15d3eacbab35455261a6e92",
     },
     BundledRobot {
         name: "dfs",
@@ -26,7 +26,7 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/dfs.wasm"),
-        sha256: "c5053bbdb78567f7dab8ab40f5c82aa12e4303fe76f77ee0f4e495e3bdb0cdd0",
+        sha256: "68223625e6f220213327e6ec6ccd4096e7b8e3c31e371489a2b59c8d967c7452",
     },
     BundledRobot {
         name: "flood",
@@ -44,14 +44,47 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/flood.wasm"),
-        sha256: "706b937097ba1fb5a21371160d8585681f2ccd8d0a840b1c95dc23079098c53f",
+        sha256: "c1fc2caa51b40d2d7201acfc9fa37c42f23e7495216917791495d14d091a7766",
+    },
+    BundledRobot {
+        name: "rai",
+        description: "Rai's planner: where it has been least, dead ends marked, a share of the maze explored.",
+        settings: &[
+            Setting {
+                value: 0,
+                name: "cap-60",
+                description: "Marks dead ends and explores 60 % of the cells: the report's final solution.",
+            },
+            Setting {
+                value: 1,
+                name: "cap-70",
+                description: "Marks dead ends and explores 70 % of the cells.",
+            },
+            Setting {
+                value: 2,
+                name: "cap-80",
+                description: "Marks dead ends and explores 80 % of the cells.",
+            },
+            Setting {
+                value: 3,
+                name: "cap-100",
+                description: "Marks dead ends and explores every cell.",
+            },
+            Setting {
+                value: 4,
+                name: "full",
+                description: "The report's first version: no dead ends marked, every cell explored.",
+            },
+        ],
+        component: include_bytes!("../../../../example-robots/prebuilt/rai.wasm"),
+        sha256: "cc9a36254ee9bb5a02ea77551f9cceba3e574fffe80a9212cfc6c1053b4536d1",
     },
     BundledRobot {
         name: "random",
         description: "Lobato's random walk, the robot to be beaten.",
         settings: &[],
         component: include_bytes!("../../../../example-robots/prebuilt/random.wasm"),
-        sha256: "2a338ee9e2da38a43e56a3a56e4fa35df416d7d5190f4c15e56aa8bd0a6a5a35",
+        sha256: "dd6e7dd675ae8e57fe5dd5a22fdac9a0e68fefc625b17747ca4153a135875f66",
     },
     BundledRobot {
         name: "wall-follower",
@@ -69,6 +102,6 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/wall-follower.wasm"),
-        sha256: "2b38f4dd7c18683c6e6197ec4f5e8cdad6110cf3c88f9bca2e9d7238ff6f56a4",
+        sha256: "215b15f13cbffac967d0659149e7f80701f580dc265b6f1592e15894d19a67ff",
     },
 ];
