@@ -4,6 +4,9 @@ use std::fs;
 use std::path::Path;
 use std::process::Output;
 
+use wasmouse::contest::STUDY_SEEDS;
+use xtask::repository;
+
 use crate::binary;
 use crate::shared::shared;
 
@@ -47,7 +50,7 @@ fn the_page_is_the_same_on_any_number_of_threads() {
         "| 01 | 44.100 | 45.200 (36 + 44) | +2.5 % |\n",
         "| `flood:certain` | 60 of 60 | 100.00 % |",
         "| finished | 1 of 6 | ",
-        "`gen:braid:12..=20:1000001..=1000004`",
+        "`gen:braid:12..=20:500001..=500004`",
     ] {
         assert!(page.contains(part), "no `{part}` in\n{page}");
     }
@@ -155,4 +158,42 @@ fn official_mazes_are_found_in_a_folder_or_in_the_shared_material() {
     check_code(&output, 0);
     let other = fs::read_to_string(folder.join("other.md")).expect("a page");
     assert_eq!(page, other);
+}
+
+/// The page says that no robot was trained on its mazes. A robot that is trained
+/// says on which seeds in `training.toml`, in tables with `first_seed` and
+/// `last_seed`; the table `test` has those that it was not trained on.
+#[test]
+fn no_robot_is_trained_on_the_mazes_of_the_study() {
+    let robots = fs::read_dir(repository().join("example-robots")).expect("a folder");
+    for robot in robots {
+        let file = robot.expect("an entry").path().join("training.toml");
+        if let Ok(text) = fs::read_to_string(&file) {
+            let overlap = trained_on_the_study(&text);
+            assert_eq!(overlap, None, "{}", file.display());
+        }
+    }
+    let trained = |first: u64| {
+        let text = format!("[p]\nfirst_seed = {first}\nlast_seed = {}\n", first + 9);
+        trained_on_the_study(&text)
+    };
+    assert_eq!(trained(STUDY_SEEDS.start() - 9), Some("p".into()));
+    assert_eq!(trained(STUDY_SEEDS.start() - 10), None);
+    assert_eq!(trained(*STUDY_SEEDS.end()), Some("p".into()));
+    assert_eq!(trained(STUDY_SEEDS.end() + 1), None);
+}
+
+/// The table whose seeds are among those of the study.
+fn trained_on_the_study(training: &str) -> Option<String> {
+    let tables: toml::Table = training.parse().expect("a TOML file");
+    let is_trained = |(name, table): &(&String, &toml::Value)| {
+        let seed = |key| table.get(key)?.as_integer()?.try_into().ok();
+        let seeds: Option<(u64, u64)> = seed("first_seed").zip(seed("last_seed"));
+        name.as_str() != "test"
+            && seeds.is_some_and(|(first, last)| {
+                first <= *STUDY_SEEDS.end() && last >= *STUDY_SEEDS.start()
+            })
+    };
+    let table = tables.iter().find(is_trained);
+    table.map(|(name, _)| name.clone())
 }
