@@ -28,6 +28,7 @@ const NATIVE: &[(&str, Native)] = &[
     ),
     ("dfs", testing::play::<robot_dfs::DepthFirst>),
     ("flood", testing::play::<robot_flood::Flood>),
+    ("rai", testing::play::<robot_rai::Rai>),
     ("random", testing::play::<robot_random::RandomWalk>),
     (
         "wall-follower",

@@ -56,14 +56,14 @@
 //! The report's figures for its first version leave at most 170 calls for maze 01
 //! (nothing races in less than 17 steps), and 280 for maze 02, whose race figure 10
 //! shows. Moves of one cell visit every cell of maze 01 in no fewer than 152 calls
-//! when the maze is known, and in 304 with dead ends marked; without marks the best
-//! of 40 seeds needed 313, 639 and 766 calls in the three mazes, the rule without
-//! chance 314, 651 and 873. Nor are all cells seen or all walls known any sooner than
-//! 308, 606 and 859. But three quarters of the cells are visited after 170, 274 and
-//! 326 calls without chance, and with it after exactly 170, 280 and 340 with some
-//! seeds. So those figures must come from a capped exploration too; and the race of
-//! figure 10, "without dead end detection", is that of `cap-80`, to the cell and with
-//! the same 280 calls.
+//! when the maze is known, and in 304 with dead ends marked. Without marks the best
+//! of 40 tries took 313, 639 and 766 calls in the three mazes, and the same rule with
+//! the least visited way in place of the random one 314, 651 and 873; to have seen
+//! every wall from somewhere takes that one 310, 608 and 871. But it has been in three
+//! quarters of the cells after 170, 274 and 326 calls, and with chance after exactly
+//! 170, 280 and 340 in 3, 33 and 22 of 300 tries. So the figures look like those of a
+//! capped exploration too; and the race of figure 10, "without dead end detection",
+//! is that of `cap-80`, to the cell and with the same 280 calls.
 //!
 //! Settings: 0 `cap-60`, 1 `cap-70`, 2 `cap-80`, 3 `cap-100`, 4 `full`.
 
