@@ -6,6 +6,7 @@
 use robot_count_expansion::CountExpansion;
 use robot_dfs::DepthFirst;
 use robot_flood::Flood;
+use robot_lobato::Lobato;
 use robot_rai::Rai;
 use robot_random::RandomWalk;
 use robot_wall_follower::WallFollower;
@@ -15,8 +16,8 @@ use wasmouse::maze::{self, Walls};
 use wasmouse_sdk::testing::{self, PlayOptions, Played};
 use wasmouse_sdk::{Area, BudgetScope, Cell, Random, Robot};
 
-/// Flood, depth-first search and Rai's planner finish every legal maze within the
-/// budget, in each of their settings.
+/// Flood, depth-first search, Lobato's robots and Rai's planner finish every legal
+/// maze within the budget, in each of their settings.
 #[test]
 fn finish_legal_mazes() {
     let kinds = [
@@ -32,30 +33,57 @@ fn finish_legal_mazes() {
             .expect("a specification");
         for (name, maze) in spec.expand() {
             let text = format::print(&maze, Format::Udacity).expect("a contest maze");
-            for setting in [0, 1] {
-                let options = PlayOptions {
-                    setting,
-                    ..PlayOptions::default()
-                };
-                let flood = play::<Flood>(&text, &options);
-                assert!(
-                    flood.finished,
-                    "flood {setting} in {name}: {}",
-                    flood.summary()
-                );
-                let dfs = play::<DepthFirst>(&text, &options);
-                assert!(dfs.finished, "dfs {setting} in {name}: {}", dfs.summary());
-            }
-            for setting in 0..5 {
-                let options = PlayOptions {
-                    setting,
-                    ..PlayOptions::default()
-                };
-                let rai = play::<Rai>(&text, &options);
-                assert!(rai.finished, "rai {setting} in {name}: {}", rai.summary());
-            }
+            finishes::<Flood>(2, &name, &text);
+            finishes::<DepthFirst>(3, &name, &text);
+            finishes::<Lobato>(5, &name, &text);
+            finishes::<Rai>(5, &name, &text);
         }
     }
+}
+
+/// Requires the robot to finish in each of that many settings.
+fn finishes<R: Robot>(settings: u32, maze: &str, text: &str) {
+    for setting in 0..settings {
+        let options = PlayOptions {
+            setting,
+            ..PlayOptions::default()
+        };
+        let played = play::<R>(text, &options);
+        let robot = std::any::type_name::<R>();
+        let summary = played.summary();
+        assert!(played.finished, "{robot} {setting} in {maze}: {summary}");
+    }
+}
+
+/// The experiment of Lobato's report, section 5.1: in the maze with a long way that
+/// the heuristic likes and a short one that it does not, A* alone takes the long one,
+/// and the swing finds the short one.
+#[test]
+fn the_swing_finds_the_way_that_a_star_alone_does_not() {
+    let bundled = maze::bundled();
+    let detour = bundled.iter().find(|it| it.name == "lobato-detour");
+    let text = detour.expect("a bundled maze").text;
+    let maze = format::parse(text).expect("bundled mazes parse").maze;
+    let best = maze::shortest_path(&maze, maze::Metric::STEPS).expect("a way");
+    let found = [0, 1, 2, 3, 4].map(|setting| {
+        let options = PlayOptions {
+            setting,
+            ..PlayOptions::default()
+        };
+        let played = play::<Lobato>(text, &options);
+        (played.speed_steps == best.steps(), played.summary())
+    });
+    let expected = [
+        (true, "finished 164 + 17: 22.467"),
+        (false, "finished 68 + 28: 30.267"),
+        (false, "finished 92 + 18: 21.067"),
+        (true, "finished 149 + 17: 21.967"),
+        (true, "finished 146 + 17: 21.867"),
+    ];
+    assert_eq!(
+        found,
+        expected.map(|(is_best, summary)| (is_best, summary.to_owned()))
+    );
 }
 
 /// Any walls, any start, any goal, any budget: whatever can be loaded.
@@ -73,15 +101,17 @@ fn survive_any_maze() {
         let text = any_walls(dimension, share, &mut random);
         let mut options = any_options(dimension, &mut random);
         finished += u32::from(play::<Flood>(&text, &options).finished);
-        play::<DepthFirst>(&text, &options);
         play::<WallFollower>(&text, &options);
+        options.setting = round % 3;
+        play::<DepthFirst>(&text, &options);
         options.setting = round % 5;
+        finished += u32::from(play::<Lobato>(&text, &options).finished);
         play::<Rai>(&text, &options);
         options.setting = 0;
         play::<RandomWalk>(&text, &options);
         play::<CountExpansion>(&text, &options);
     }
-    assert!(finished > 300, "only {finished} finished: a weak test");
+    assert!(finished > 600, "only {finished} finished: a weak test");
 }
 
 /// Plays, and checks what holds in every match.

@@ -418,7 +418,7 @@ mod tests {
             Legality::Contest,
             "error: unknown maze `/qq/\\u{1b}qq`: no bundled maze, file or folder has this name\
              \n\nhint: bundled mazes are test_maze_01, braid-12, division-14, tree-16, division-18, \
-             braid-20",
+             braid-20, lobato-detour",
         );
         check_error(
             "gen:tree:13:1",

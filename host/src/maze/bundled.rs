@@ -12,7 +12,12 @@ pub struct BundledMaze {
     pub text: &'static str,
 }
 
-/// The official maze, then generated ones of every size.
+/// The official maze, then generated ones of every size, then the experiment of
+/// Lobato's report (section 5.1): maze 01 with two more walls, up of (3, 4) and right
+/// of (6, 8). They close the way across the middle and leave two: a long one by the
+/// top left, which a search that counts walls not seen yet as open takes because it
+/// stays near the goal, and the best one by the right, which goes away from it first.
+/// The report's own maze is only in a picture.
 const MAZES: &[BundledMaze] = &[
     BundledMaze {
         name: "test_maze_01",
@@ -38,6 +43,10 @@ const MAZES: &[BundledMaze] = &[
         name: "braid-20",
         text: include_str!("../../mazes/braid-20.txt"),
     },
+    BundledMaze {
+        name: "lobato-detour",
+        text: include_str!("../../mazes/lobato-detour.txt"),
+    },
 ];
 
 /// All bundled mazes, in the order in which they are listed and run. Each is a
@@ -58,7 +67,7 @@ pub const fn bundled() -> &'static [BundledMaze] {
 mod tests {
     use super::super::format::{self, Format};
     use super::super::generate::GenSpec;
-    use super::super::violations;
+    use super::super::{Cell, Heading, violations};
     use super::*;
 
     #[test]
@@ -81,7 +90,9 @@ mod tests {
             "gen:division:18:4",
             "gen:braid:20:2",
         ];
-        let (_official, generated) = bundled().split_first().expect("bundled mazes");
+        let [_official, generated @ .., _detour] = bundled() else {
+            panic!("at least two mazes");
+        };
         assert_eq!(generated.len(), specs.len());
         for (bundled_maze, spec) in generated.iter().zip(specs) {
             let spec: GenSpec = spec.parse().expect("a specification");
@@ -91,5 +102,23 @@ mod tests {
             let kind_and_size = format!("{}-{}", spec.kind().name(), maze.dimension());
             assert_eq!(bundled_maze.name, kind_and_size);
         }
+    }
+
+    /// The experiment's maze is maze 01 with the two walls that its comment names.
+    #[test]
+    fn the_detour_is_maze_01_with_two_more_walls() {
+        let [official, .., detour] = bundled() else {
+            panic!("at least two mazes");
+        };
+        let maze = |it: &BundledMaze| format::parse(it.text).expect("bundled mazes parse").maze;
+        let mut walls = maze(official).walls().clone();
+        for (cell, heading) in [
+            (Cell::new(3, 4), Heading::Up),
+            (Cell::new(6, 8), Heading::Right),
+        ] {
+            assert!(walls.is_open(cell, heading));
+            walls.set(cell, heading, false);
+        }
+        assert_eq!(maze(detour).walls(), &walls);
     }
 }
