@@ -36,7 +36,9 @@
 //!   report's count expansion (this A* without a heuristic) gets the 33, 56 and 75
 //!   steps that the report has for run 1 in the three mazes.
 //! - *Walls have two sides*: the excerpt marks a wall only in the cell that it was seen
-//!   from. Marked like that, this robot needs 26 steps for run 2 of maze 01.
+//!   from. Marked like that, the count expansion gets all six figures of the report,
+//!   run 2 too; but the swing then needs 26 steps for run 2 of maze 01, and the report
+//!   says that it found the best path. So its final robot must have known both sides.
 //! - *The heuristic* of the excerpt forgets the row distance in row 0 and the column
 //!   distance in column 0, where its loops begin at 1. That would cost the best path
 //!   of maze 01 (20 steps), and the text says distance, so it is not done.
@@ -44,8 +46,8 @@
 //! - *Going in circles*: numbers are no distances, so a robot that starts its A* again
 //!   in every cell may come back to a cell without having learned anything. Then it
 //!   drives by the count expansion, whose ways get shorter with every step, until it
-//!   has seen a new wall or reached the cell. That never happens in the contest's
-//!   mazes, and in few others.
+//!   has seen a new wall or reached the cell. It has not happened yet: not in 260
+//!   mazes of competitions, 1,000 generated ones and 12,000 of random walls.
 //! - *A corner that cannot be reached* is left out; instead of a goal cell that cannot
 //!   be reached it takes any other.
 //! - *The budget*: run 1 ends when the 1000 steps have just enough left for the race
@@ -54,7 +56,8 @@
 //!
 //! The results, steps of run 1 with the reset + steps of run 2. The report's own are
 //! in figures that its text lacks; it says that arriving explores little and scores
-//! badly, that coming back is better, and the swing better still.
+//! badly, that coming back is better, and the swing better still. Here coming back is
+//! better on average, but a little worse in maze 02: it learns no other way there.
 //!
 //! | setting | maze 01 | maze 02 | maze 03 |
 //! |---|---|---|---|
