@@ -11,6 +11,8 @@
 //! | find the fewest steps | [`Search`] |
 //! | find cheapest paths under costs of your own | [`AStar`] |
 //! | search as simple robots do, by counting squares | [`Expansion`] |
+//! | find the cheapest ways when walls have costs | [`WeightedSearch`], [`Grid`] |
+//! | know that the best path is found | [`Certificate`] |
 //! | roll dice | [`Random`] |
 //! | tell the people who watch something | [`journal`] |
 //! | test a robot natively, without WebAssembly | [`testing`] |
@@ -21,8 +23,10 @@
 mod astar;
 #[doc(hidden)]
 pub mod bindings;
+mod certificate;
 mod expansion;
 mod geometry;
+mod grid;
 pub mod journal;
 mod map;
 mod passages;
@@ -33,13 +37,16 @@ mod search;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod testing;
 mod tracker;
+mod weighted;
 
 pub use astar::{AStar, Path};
 pub use bindings::wasmouse::robot::types::{
     Action, Area, Briefing, BudgetScope, Cell, Heading, Move, Sensors, Turn,
 };
+pub use certificate::Certificate;
 pub use expansion::Expansion;
 pub use geometry::DIMENSION_MAX;
+pub use grid::Grid;
 pub use map::{Map, News, View, Wall};
 pub use passages::{CellSet, Passages};
 pub use pose::Pose;
@@ -47,3 +54,4 @@ pub use random::Random;
 pub use robot::Robot;
 pub use search::{Hop, Search};
 pub use tracker::{Run, Tracker};
+pub use weighted::{IMPASSABLE, WeightedSearch};

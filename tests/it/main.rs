@@ -13,6 +13,8 @@ mod cli;
 mod conformance;
 /// The same bytes from the same contest.
 mod determinism;
+/// The champion's promises: it finishes, its proofs hold, its training is clean.
+mod champion;
 /// Every bundled robot: native and component alike, and who has to finish.
 mod every_robot;
 /// Maze files: reading, round trips, and a survey counted in another way.

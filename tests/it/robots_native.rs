@@ -3,6 +3,7 @@
 //!
 //! Played natively in the SDK's arena, which is fast enough for thousands.
 
+use robot_champion::Champion;
 use robot_count_expansion::CountExpansion;
 use robot_dfs::DepthFirst;
 use robot_flood::Flood;
@@ -112,6 +113,24 @@ fn survive_any_maze() {
         play::<CountExpansion>(&text, &options);
     }
     assert!(finished > 600, "only {finished} finished: a weak test");
+}
+
+/// The champion too, in fewer and smaller ones: it thinks longer.
+#[test]
+fn the_champion_survives_any_maze() {
+    let mut random = Random::new(2);
+    let mut finished = 0;
+    for _ in 0..60 {
+        let dimension = 2 + random.below(13);
+        let share = random.below(60);
+        let text = any_walls(dimension, share, &mut random);
+        let options = PlayOptions {
+            setting: 0,
+            ..any_options(dimension, &mut random)
+        };
+        finished += u32::from(play::<Champion>(&text, &options).finished);
+    }
+    assert!(finished > 10, "only {finished} finished: a weak test");
 }
 
 /// Plays, and checks what holds in every match.
