@@ -9,6 +9,7 @@
 //! | remember walls | [`Map`], [`Passages`], [`CellSet`] |
 //! | keep pose, map and budget together | [`Tracker`] |
 //! | find the fewest steps | [`Search`] |
+//! | find what still has to be seen | [`Doubt`] |
 //! | find cheapest paths under costs of your own | [`AStar`] |
 //! | search as simple robots do, by counting squares | [`Expansion`] |
 //! | find the cheapest ways when walls have costs | [`WeightedSearch`], [`Grid`] |
@@ -24,6 +25,7 @@ mod astar;
 #[doc(hidden)]
 pub mod bindings;
 mod certificate;
+mod doubt;
 mod expansion;
 mod geometry;
 mod grid;
@@ -44,6 +46,7 @@ pub use bindings::wasmouse::robot::types::{
     Action, Area, Briefing, BudgetScope, Cell, Heading, Move, Sensors, Turn,
 };
 pub use certificate::Certificate;
+pub use doubt::Doubt;
 pub use expansion::Expansion;
 pub use geometry::DIMENSION_MAX;
 pub use grid::Grid;

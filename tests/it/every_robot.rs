@@ -22,12 +22,15 @@ type Native = fn(&str, &PlayOptions) -> Played;
 /// The bundled robots by name, as Rust types. A robot that is missing fails
 /// [`every_bundled_robot_is_in_the_table`].
 const NATIVE: &[(&str, Native)] = &[
+    ("champion", testing::play::<robot_champion::Champion>),
     (
         "count-expansion",
         testing::play::<robot_count_expansion::CountExpansion>,
     ),
     ("dfs", testing::play::<robot_dfs::DepthFirst>),
     ("flood", testing::play::<robot_flood::Flood>),
+    ("lobato", testing::play::<robot_lobato::Lobato>),
+    ("minnett", testing::play::<robot_minnett::Minnett>),
     ("rai", testing::play::<robot_rai::Rai>),
     ("random", testing::play::<robot_random::RandomWalk>),
     (

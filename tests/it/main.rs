@@ -7,14 +7,14 @@
 mod binary;
 /// The cache of compiled robots, damaged and unusable.
 mod cache;
+/// The champion's promises: it finishes, its proofs hold, its training is clean.
+mod champion;
 /// What commands print, and how they fail.
 mod cli;
 /// The rules: recorded games and games written by hand.
 mod conformance;
 /// The same bytes from the same contest.
 mod determinism;
-/// The champion's promises: it finishes, its proofs hold, its training is clean.
-mod champion;
 /// Every bundled robot: native and component alike, and who has to finish.
 mod every_robot;
 /// Maze files: reading, round trips, and a survey counted in another way.
@@ -27,6 +27,8 @@ mod interrupt;
 mod layers;
 /// Memory of the process, however many matches are played.
 mod memory;
+/// Minnett's robot in generated mazes.
+mod minnett;
 /// The prebuilt robots against their sources and their manifest.
 mod prebuilt;
 /// The README's tutorial and examples, run as they stand there.

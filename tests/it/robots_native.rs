@@ -8,6 +8,7 @@ use robot_count_expansion::CountExpansion;
 use robot_dfs::DepthFirst;
 use robot_flood::Flood;
 use robot_lobato::Lobato;
+use robot_minnett::Minnett;
 use robot_rai::Rai;
 use robot_random::RandomWalk;
 use robot_wall_follower::WallFollower;
@@ -111,6 +112,11 @@ fn survive_any_maze() {
         options.setting = 0;
         play::<RandomWalk>(&text, &options);
         play::<CountExpansion>(&text, &options);
+        if round % 7 == 0 {
+            // Thorough and slow.
+            options.setting = random.below(5);
+            play::<Minnett>(&text, &options);
+        }
     }
     assert!(finished > 600, "only {finished} finished: a weak test");
 }

@@ -23,8 +23,8 @@
 //! Settings: 0 resets in the goal, 1 explores until the best path is certain.
 
 use wasmouse_sdk::{
-    Action, Briefing, Cell, CellSet, Heading, Hop, Pose, Robot, Run, Search, Sensors, Tracker,
-    Turn, View, export_robot,
+    Action, Briefing, CellSet, Doubt, Hop, Pose, Robot, Run, Search, Sensors, Tracker, Turn, View,
+    export_robot,
 };
 
 /// The robot.
@@ -78,12 +78,6 @@ impl Robot for Flood {
     }
 }
 
-/// A wall that the robot would like to see.
-struct Question {
-    cell: Cell,
-    side: Heading,
-}
-
 impl Flood {
     /// The first step of a shortest path to the goal. Searches only when the path
     /// of the last search is no longer whole: walls that close make nothing shorter.
@@ -111,29 +105,16 @@ impl Flood {
 
     /// The first unknown wall on the best path from start to goal that may exist;
     /// `None` when there is nothing more to ask, or no time.
-    fn next_question(&mut self) -> Option<Question> {
+    fn next_question(&mut self) -> Option<Doubt> {
         if !self.explores_on || !self.tracker.can_afford_race(1, &mut self.questions) {
             return None;
         }
         let start = self.tracker.briefing().start;
-        let map = self.tracker.map();
-        let passages = map.passages(View::Optimistic);
-        self.questions.fill_until(passages, &self.goal, start);
-        let mut cell = start;
-        for hop in self.questions.route(passages, Pose::at_start(start)) {
-            let known = map.passages(View::Pessimistic);
-            let clear = known.clear_cells(cell, hop.heading, hop.cells);
-            cell = cell.toward(hop.heading, clear)?;
-            if clear < hop.cells {
-                let side = hop.heading;
-                return Some(Question { cell, side });
-            }
-        }
-        None
+        Doubt::first(self.tracker.map(), &mut self.questions, start, &self.goal)
     }
 
     /// Drives towards the cell of the question; there, looks at the wall.
-    fn look_into(&mut self, Question { cell, side }: Question) -> Action {
+    fn look_into(&mut self, Doubt { cell, side }: Doubt) -> Action {
         let pose = self.tracker.pose();
         if pose.cell == cell {
             return self.tracker.go(side, 1);
@@ -153,8 +134,8 @@ mod contest_mazes;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use wasmouse_sdk::Area;
     use wasmouse_sdk::testing::{self, MAZE_01, PlayOptions};
+    use wasmouse_sdk::{Area, Cell};
 
     fn check(maze: &str, options: &PlayOptions, expected: &str) {
         let played = testing::play::<Flood>(maze, options);
