@@ -84,7 +84,7 @@ fn the_first_command_of_the_readme_is_the_demo() {
         .expect("the program can be run");
     assert!(output.status.success(), "{output:?}");
     let printed = String::from_utf8_lossy(&output.stdout);
-    assert!(printed.contains(" 1      flood "), "{printed}");
-    assert!(printed.contains("The best run: `flood`"), "{printed}");
+    assert!(printed.contains(" 1      champion "), "{printed}");
+    assert!(printed.contains("The best run: `champion`"), "{printed}");
     assert!(folder.path().join("wasmouse-demo.html").is_file());
 }

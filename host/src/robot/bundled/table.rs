@@ -4,11 +4,22 @@ use super::{BundledRobot, Setting};
 
 pub(super) const ROBOTS: &[BundledRobot] = &[
     BundledRobot {
+        name: "champion",
+        description: "Learns what kind of maze it is in, and explores only what is likely to pay.",
+        settings: &[Setting {
+            value: 0,
+            name: "fast",
+            description: "Weighs what a wall may hide against the steps to look at it.",
+        }],
+        component: include_bytes!("../../../../example-robots/prebuilt/champion.wasm"),
+        sha256: "485e5474e7ae559f1471ff9c31eff18dc4350077f886b3dfcbf10d310e6e351e",
+    },
+    BundledRobot {
         name: "count-expansion",
         description: "Lobato's count expansion, from the same report as the random walk.",
         settings: &[],
         component: include_bytes!("../../../../example-robots/prebuilt/count-expansion.wasm"),
-        sha256: "473adcf699c3c20310f25f17ced6df54baabfdf0f15d3eacbab35455261a6e92",
+        sha256: "0195ace5b66e04bca9c0d6ae3732b3ccb9c83bf8ca4f5251a0b6e4d36ac8cea8",
     },
     BundledRobot {
         name: "dfs",
@@ -24,9 +35,14 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
                 name: "reset",
                 description: "Resets as soon as it stands in the goal.",
             },
+            Setting {
+                value: 2,
+                name: "pure",
+                description: "Explores every cell without backtracking: drives straight to the next branch.",
+            },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/dfs.wasm"),
-        sha256: "68223625e6f220213327e6ec6ccd4096e7b8e3c31e371489a2b59c8d967c7452",
+        sha256: "a5f405a59bdfbc6af08bc0a0d1e3ba7fa2efbc1bd6cbbf4661eee4b666501a28",
     },
     BundledRobot {
         name: "flood",
@@ -44,7 +60,73 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/flood.wasm"),
-        sha256: "c1fc2caa51b40d2d7201acfc9fa37c42f23e7495216917791495d14d091a7766",
+        sha256: "0490901ceb08c353f674bab517500a21d768b8173682cd98b9b68db48b60a77c",
+    },
+    BundledRobot {
+        name: "lobato",
+        description: "Lobato's A* robots: straight to the goal, there and back, the swing over key points.",
+        settings: &[
+            Setting {
+                value: 0,
+                name: "swing-3",
+                description: "The key-point swing over three corners, the report's final solution.",
+            },
+            Setting {
+                value: 1,
+                name: "arrive",
+                description: "A* to the goal, then resets.",
+            },
+            Setting {
+                value: 2,
+                name: "return",
+                description: "A* to the goal and back to the start, then resets.",
+            },
+            Setting {
+                value: 3,
+                name: "swing-1",
+                description: "The key-point swing with one corner, the upper left one.",
+            },
+            Setting {
+                value: 4,
+                name: "swing-2",
+                description: "The key-point swing with two corners, upper left and lower right.",
+            },
+        ],
+        component: include_bytes!("../../../../example-robots/prebuilt/lobato.wasm"),
+        sha256: "bd7a8c89e7afad06481da2d4b408021d88b4f8f80a461ecec8a9bfa536cd280c",
+    },
+    BundledRobot {
+        name: "minnett",
+        description: "Minnett's peaks of uncertainty, in the five stages of his report.",
+        settings: &[
+            Setting {
+                value: 0,
+                name: "final",
+                description: "His last stage: unscaled uncertainties, and loops are broken.",
+            },
+            Setting {
+                value: 1,
+                name: "first",
+                description: "His first working version: scaled peaks, one step of each path.",
+            },
+            Setting {
+                value: 2,
+                name: "second-step",
+                description: "The first version, taking two steps of each path.",
+            },
+            Setting {
+                value: 3,
+                name: "optimal-path",
+                description: "The second stage with path costs that are right.",
+            },
+            Setting {
+                value: 4,
+                name: "simple",
+                description: "The third stage with unscaled uncertainties.",
+            },
+        ],
+        component: include_bytes!("../../../../example-robots/prebuilt/minnett.wasm"),
+        sha256: "cb6eda9106f886c75825ddc5c82541921dfda3e6f484cf3b17cad48e30dc4268",
     },
     BundledRobot {
         name: "rai",
@@ -77,14 +159,14 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/rai.wasm"),
-        sha256: "cc9a36254ee9bb5a02ea77551f9cceba3e574fffe80a9212cfc6c1053b4536d1",
+        sha256: "529b52592b5be0150f159a704c87f86262f1fa52a5862985c60294f120c174a1",
     },
     BundledRobot {
         name: "random",
         description: "Lobato's random walk, the robot to be beaten.",
         settings: &[],
         component: include_bytes!("../../../../example-robots/prebuilt/random.wasm"),
-        sha256: "dd6e7dd675ae8e57fe5dd5a22fdac9a0e68fefc625b17747ca4153a135875f66",
+        sha256: "aabd54c3aff36de0443d871b860407cb997d24092f9d693ff1b6c7418c741636",
     },
     BundledRobot {
         name: "wall-follower",
@@ -102,6 +184,6 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/wall-follower.wasm"),
-        sha256: "215b15f13cbffac967d0659149e7f80701f580dc265b6f1592e15894d19a67ff",
+        sha256: "5269a3cb98a00974603c896106d179a6437685cbb45e0e466e056693d0ddf7a4",
     },
 ];
