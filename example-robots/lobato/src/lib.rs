@@ -38,7 +38,7 @@
 //! - *Walls have two sides*: the excerpt marks a wall only in the cell that it was seen
 //!   from. Marked like that, the count expansion gets all six figures of the report,
 //!   run 2 too; but the swing then needs 26 steps for run 2 of maze 01, and the report
-//!   says that it found the best path. So its final robot must have known both sides.
+//!   says that it found the best path. So its final robot probably knew both sides.
 //! - *The heuristic* of the excerpt forgets the row distance in row 0 and the column
 //!   distance in column 0, where its loops begin at 1. That would cost the best path
 //!   of maze 01 (20 steps), and the text says distance, so it is not done.
@@ -57,7 +57,7 @@
 //! The results, steps of run 1 with the reset + steps of run 2. The report's own are
 //! in figures that its text lacks; it says that arriving explores little and scores
 //! badly, that coming back is better, and the swing better still. Here coming back is
-//! better on average, but a little worse in maze 02: it learns no other way there.
+//! better on average, but a little worse in maze 02.
 //!
 //! | setting | maze 01 | maze 02 | maze 03 |
 //! |---|---|---|---|
