@@ -67,8 +67,8 @@ mod steps;
 use std::collections::VecDeque;
 
 use wasmouse_sdk::{
-    Action, Area, Briefing, Cell, CellSet, Doubt, Hop, Robot, Run, Search, Sensors, Tracker, Turn,
-    View, export_robot, journal,
+    Action, Area, Briefing, Cell, CellSet, Certificate, Doubt, Hop, Robot, Run, Search, Sensors,
+    Tracker, Turn, View, export_robot, journal,
 };
 
 use knowledge::Knowledge;
@@ -234,10 +234,20 @@ impl Minnett {
     /// The best path from start to goal through known openings, if no better one may
     /// exist.
     fn optimal_path(&mut self) -> Option<Vec<Hop>> {
-        let known = self.race_path(View::Pessimistic)?;
-        let possible = self.race_path(View::Optimistic)?;
-        let is_affordable = self.tracker.can_afford(0, known.len() as u32);
-        (known.len() <= possible.len() && is_affordable).then_some(known)
+        let start = self.tracker.briefing().start;
+        let (map, search) = (self.knowledge.map(), &mut self.search);
+        let is_proven = match self.stage.order {
+            Order::Cheapest => Certificate::of(map, start, &self.goal, search).is_proven(),
+            // The first versions compared paths of wrong costs.
+            Order::LastInList => {
+                let possible = self.race_path(View::Optimistic)?.len();
+                self.race_path(View::Pessimistic)?.len() <= possible
+            }
+        };
+        let path = is_proven.then(|| self.race_path(View::Pessimistic))??;
+        self.tracker
+            .can_afford(0, path.len() as u32)
+            .then_some(path)
     }
 
     fn race_path(&mut self, view: View) -> Option<Vec<Hop>> {

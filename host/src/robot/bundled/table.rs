@@ -126,7 +126,7 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/minnett.wasm"),
-        sha256: "cb6eda9106f886c75825ddc5c82541921dfda3e6f484cf3b17cad48e30dc4268",
+        sha256: "a5aae58f36052b6cbeb2a21151853a90d349fb08d567c8d92e13565d66681ee6",
     },
     BundledRobot {
         name: "rai",
