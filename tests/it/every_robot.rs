@@ -134,7 +134,7 @@ fn robots_finish_a_sample_of_legal_mazes() {
 }
 
 #[test]
-#[ignore = "plays 1,500 mazes with every robot, which takes as long as `wasmouse study`"]
+#[ignore = "plays 2,000 mazes with every robot, which takes as long as `wasmouse study`"]
 fn robots_finish_all_mazes_of_the_study() {
     let host = host();
     check_finished(&host, entrants(&host), STUDY_SEEDS);

@@ -7,12 +7,13 @@ use wasmouse::maze::generate::GenSpec;
 use wasmouse::maze::{Maze, Metric, shortest_path};
 use wasmouse_sdk::testing::{self, PlayOptions, Played};
 
-const KINDS: [&str; 5] = [
+const KINDS: [&str; 6] = [
     "division",
     "tree,loops=0",
     "tree,loops=12",
     "tree,loops=60",
     "braid",
+    "stretches",
 ];
 
 fn for_each_maze(kind: &str, seeds: &str, mut check: impl FnMut(&str, &Maze)) {

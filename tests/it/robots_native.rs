@@ -28,6 +28,7 @@ fn finish_legal_mazes() {
         "tree,loops=12",
         "tree,loops=60",
         "braid",
+        "stretches",
     ];
     for kind in kinds {
         let spec: GenSpec = format!("gen:{kind}:12..=20:1..=12")

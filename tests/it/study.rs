@@ -48,9 +48,10 @@ fn the_page_is_the_same_on_any_number_of_threads() {
         "**Absent when this page was written: `test_maze_02`, `test_maze_03`.**",
         "| `flood:certain` | 21.867 (146 + 17) | - | - | - |\n",
         "| 01 | 44.100 | 45.200 (36 + 44) | +2.5 % |\n",
-        "| `flood:certain` | 60 of 60 | 100.00 % |",
+        "| `flood:certain` | 80 of 80 | 100.00 % |",
         "| finished | 1 of 6 | ",
         "`gen:braid:12..=20:500001..=500004`",
+        "`gen:stretches:12..=20:500001..=500004`",
     ] {
         assert!(page.contains(part), "no `{part}` in\n{page}");
     }

@@ -91,3 +91,22 @@ fn an_unknown_setting() {
         ..Briefing::contest(12)
     });
 }
+
+/// A budget whose half is over before the goal is reached: the guard seeks it, and
+/// says so once.
+#[test]
+fn the_guard_seeks_the_goal_when_it_is_late() {
+    for (budget, expected) in [(70, 1), (80, 1), (1000, 0)] {
+        let options = PlayOptions {
+            budget,
+            ..PlayOptions::default()
+        };
+        let played = testing::play::<Minnett>(MAZE_01, &options);
+        let is_said = |entry: &&testing::Entry| {
+            let note = &entry.note;
+            matches!(note, testing::Note::Log(_, text) if text == GUARD_SEEKS_GOAL)
+        };
+        let said = played.journal.iter().filter(is_said).count();
+        assert_eq!(said, expected, "{budget}: {}", played.summary());
+    }
+}

@@ -34,7 +34,7 @@ const TRIES_QUICK: u64 = 60;
 
 const LONG_HELP: &str = "\
 Mazes: the official ones, of which wasmouse comes with maze 01 alone; 100 of
-each size from 12 to 20 from each of the three generators, with the seeds
+each size from 12 to 20 from each of the four generators, with the seeds
 500001 to 500100. The same version writes the same bytes on any number of
 threads. A page that is there already is replaced if an earlier study wrote it.
 

@@ -88,7 +88,10 @@ impl<'a> Study<'a> {
     }
 
     /// The results of an entrant in the mazes of all groups, in their order.
-    pub fn of_entrant(&self, entrant: usize) -> impl Iterator<Item = &'a MatchResult> {
+    pub fn of_entrant(
+        &self,
+        entrant: usize,
+    ) -> impl Iterator<Item = &'a MatchResult> + Clone + use<'a> {
         // Results are in the contest's order, so those of an entrant are together.
         let begin = self.results.partition_point(|it| it.entrant < entrant);
         let end = self.results.partition_point(|it| it.entrant <= entrant);
@@ -114,6 +117,7 @@ mod tests {
                 "gen:division:12..=20:500001..=500100",
                 "gen:tree,loops=12:12..=20:500001..=500100",
                 "gen:braid:12..=20:500001..=500100",
+                "gen:stretches:12..=20:500001..=500100",
             ]
         );
         assert!(families.iter().all(|family| family.count() == 500));

@@ -13,11 +13,13 @@ use crate::maze::generate::{GenSpec, GenSpecError, Kind};
 
 const LONG_HELP: &str = "\
 Kinds:
-  division  stretches of four edges, three walls and one opening, as in
-            Minnett's report: open places, free-standing walls
-  tree      a random spanning tree, some of its walls opened: many dead ends
-  braid     straights and diagonal staircases, few dead ends: like mazes that
-            people draw for contests
+  division   stretches of four edges, three walls and one opening, as in
+             Minnett's report: open places, free-standing walls
+  tree       a random spanning tree, some of its walls opened: many dead ends
+  braid      straights and diagonal staircases, few dead ends: like mazes that
+             people draw for contests
+  stretches  stretches of one to five edges with one opening each, as in
+             Minnett's program: short ways to the goal
 
 Every maze is a legal contest maze, and the same kind, size and seed give the
 same maze everywhere. A specification gen:KIND[,loops=PERCENT]:SIZE:SEED says
@@ -37,7 +39,7 @@ Examples:
 #[derive(clap::Args)]
 #[command(after_long_help = LONG_HELP)]
 pub struct Args {
-    /// division, tree, braid, or a specification gen:KIND:SIZE:SEED
+    /// division, tree, braid, stretches, or a specification gen:KIND:SIZE:SEED
     kind: String,
     /// Cells along each side, an even number from 12 to 20 [default: 16]
     #[arg(long, value_name = "CELLS")]
@@ -133,7 +135,7 @@ fn kind(args: &Args) -> Result<Kind, Failure> {
             "unknown kind of maze `{}`",
             args.kind.escape_debug()
         ))
-        .hint("the kinds are division, tree and braid")),
+        .hint("the kinds are division, tree, braid and stretches")),
     }
 }
 
@@ -233,7 +235,7 @@ mod tests {
         for (line, message) in [
             (
                 "hedge",
-                "error: unknown kind of maze `hedge`\n\nhint: the kinds are division, tree and braid",
+                "error: unknown kind of maze `hedge`\n\nhint: the kinds are division, tree, braid and stretches",
             ),
             (
                 "braid --loops 3",

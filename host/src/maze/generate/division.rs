@@ -10,7 +10,8 @@
 //! The report does not say how its stretches never cut a cell off, nor when it
 //! stops. Here a stretch is only built where its walls close no ring of walls:
 //! cells stay connected exactly as long as no ring stands. It ends when no such
-//! stretch is left, and edges that never were in one stay open.
+//! stretch is left, and edges that never were in one stay open. What the author's
+//! own program does instead is the kind `stretches`.
 
 use super::super::{Cell, Heading, Walls};
 use super::draft::{Draft, Edge};

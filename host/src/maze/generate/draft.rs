@@ -33,6 +33,25 @@ impl Edge {
         [self.cell, other.expect("an edge has a cell on both sides")]
     }
 
+    /// The direction in which a wall on it would lie: up or right.
+    pub(super) const fn along(self) -> Heading {
+        match self.heading {
+            Heading::Up | Heading::Down => Heading::Right,
+            Heading::Right | Heading::Left => Heading::Up,
+        }
+    }
+
+    /// The two edges across the post at its end in that direction, and the next
+    /// edge in line. `None` past the column or row 0; the caller knows where the
+    /// maze ends on the other sides.
+    pub(super) fn past(self, way: Heading) -> Option<([Self; 2], Self)> {
+        let next = Self {
+            cell: self.cell.step(way)?,
+            ..self
+        };
+        Some((self.cells().map(|cell| Self::new(cell, way)), next))
+    }
+
     /// The posts at both ends, as the cells to whose lower left they stand.
     pub(super) fn posts(self) -> [Cell; 2] {
         let Cell { x, y } = self.cell;
@@ -135,10 +154,20 @@ impl Draft {
     ///
     /// When the edge is final, because that would break a rule of the contest.
     pub(super) fn set(&mut self, edge: Edge, open: bool) {
-        assert!(self.is_free(edge), "{edge:?} is final");
-        self.walls.set(edge.cell, edge.heading, open);
+        self.change(edge, open);
         let index = self.walls.index(edge.cell);
         self.finals[index] |= edge.heading.bit();
+    }
+
+    /// Opens or closes a free edge without making it final, for a generator that
+    /// may come back to it.
+    ///
+    /// # Panics
+    ///
+    /// When the edge is final, because that would break a rule of the contest.
+    pub(super) fn change(&mut self, edge: Edge, open: bool) {
+        assert!(self.is_free(edge), "{edge:?} is final");
+        self.walls.set(edge.cell, edge.heading, open);
     }
 
     /// Whether nothing stands on the edge.
@@ -185,6 +214,34 @@ mod tests {
         assert_eq!(right.posts(), [Cell::new(4, 4), Cell::new(4, 5)]);
         let up = Edge::new(cell, Heading::Up);
         assert_eq!(up.posts(), [Cell::new(3, 5), Cell::new(4, 5)]);
+        let up_at = |x, y| Edge::new(Cell::new(x, y), Heading::Up);
+        let right_at = |x, y| Edge::new(Cell::new(x, y), Heading::Right);
+        for (edge, way, expected) in [
+            (
+                up,
+                Heading::Right,
+                ([right_at(3, 4), right_at(3, 5)], up_at(4, 4)),
+            ),
+            (
+                up,
+                Heading::Left,
+                ([right_at(2, 4), right_at(2, 5)], up_at(2, 4)),
+            ),
+            (
+                right,
+                Heading::Up,
+                ([up_at(3, 4), up_at(4, 4)], right_at(3, 5)),
+            ),
+            (
+                right,
+                Heading::Down,
+                ([up_at(3, 3), up_at(4, 3)], right_at(3, 3)),
+            ),
+        ] {
+            assert!([edge.along(), edge.along().opposite()].contains(&way));
+            assert_eq!(edge.past(way), Some(expected));
+        }
+        assert_eq!(right_at(3, 0).past(Heading::Down), None);
     }
 
     #[test]

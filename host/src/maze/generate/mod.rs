@@ -16,6 +16,7 @@ mod draft;
 mod draws;
 mod sets;
 mod spec;
+mod stretches;
 mod tree;
 
 use std::fmt;
@@ -32,8 +33,9 @@ pub const GENERATED_DIMENSIONS: std::ops::RangeInclusive<u8> = 12..=20;
 /// A way of making mazes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Kind {
-    /// Stretches of four edges, three of them walls: Minnett's generator. Has
-    /// open places, free-standing walls, and dead ends all the same.
+    /// Stretches of four edges, three of them walls: Minnett's generator as his
+    /// report describes it. Has open places, free-standing walls, and dead ends
+    /// all the same.
     Division,
     /// A random spanning tree with some walls removed. Winding, many dead ends.
     Tree {
@@ -44,6 +46,9 @@ pub enum Kind {
     /// Straights and diagonal staircases with most dead ends joined: like mazes
     /// that people draw for contests.
     Braid,
+    /// Stretches of one to five edges, each with an opening: Minnett's generator
+    /// as his program has it. Short ways, many loops and many dead ends.
+    Stretches,
 }
 
 impl Kind {
@@ -51,20 +56,22 @@ impl Kind {
     pub const DEFAULT_LOOPS: u8 = 12;
 
     /// One of each kind, with default settings, in the order of help texts.
-    pub const ALL: [Self; 3] = [
+    pub const ALL: [Self; 4] = [
         Self::Division,
         Self::Tree {
             loops: Self::DEFAULT_LOOPS,
         },
         Self::Braid,
+        Self::Stretches,
     ];
 
-    /// `division`, `tree` or `braid`.
+    /// `division`, `tree`, `braid` or `stretches`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Division => "division",
             Self::Tree { .. } => "tree",
             Self::Braid => "braid",
+            Self::Stretches => "stretches",
         }
     }
 }
@@ -74,7 +81,7 @@ impl fmt::Display for Kind {
         f.write_str(self.name())?;
         match self {
             Self::Tree { loops } => write!(f, ",loops={loops}"),
-            Self::Division | Self::Braid => Ok(()),
+            Self::Division | Self::Braid | Self::Stretches => Ok(()),
         }
     }
 }
@@ -100,6 +107,7 @@ pub(super) fn generate(kind: Kind, dimension: u8, seed: u64) -> Maze {
         Kind::Division => division::walls(dimension, &mut draws),
         Kind::Tree { loops } => tree::walls(dimension, loops, &mut draws),
         Kind::Braid => braid::walls(dimension, &mut draws),
+        Kind::Stretches => stretches::walls(dimension, &mut draws),
     };
     Maze::contest(walls).expect("12 x 12 cells have room for start and goal")
 }

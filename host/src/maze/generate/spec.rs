@@ -13,10 +13,10 @@ pub const GENERATED_MAX: u64 = 100_000;
 
 /// One or more generated mazes: a kind, dimensions and seeds.
 ///
-/// Written as `gen:KIND:DIMENSION:SEED`. The kind is `division`, `tree` or
-/// `braid`; a tree takes `,loops=PERCENT`, 0 to 100, default 12. The dimension
-/// is an even number of cells from 12 to 20, the seed any number below 2^64.
-/// Both may be inclusive ranges, `12..=20` or `1..=100`, of which all even
+/// Written as `gen:KIND:DIMENSION:SEED`. The kind is `division`, `tree`, `braid`
+/// or `stretches`; a tree takes `,loops=PERCENT`, 0 to 100, default 12. The
+/// dimension is an even number of cells from 12 to 20, the seed any number below
+/// 2^64. Both may be inclusive ranges, `12..=20` or `1..=100`, of which all even
 /// dimensions and all seeds are meant: at most [`GENERATED_MAX`] mazes.
 ///
 /// ```
@@ -63,7 +63,7 @@ pub enum GenSpecError {
     },
 }
 
-const KINDS: &str = "`division`, `tree`, `tree,loops=PERCENT` or `braid`";
+const KINDS: &str = "`division`, `tree`, `tree,loops=PERCENT`, `braid` or `stretches`";
 const LOOPS: &str = "a percentage from 0 to 100";
 const DIMENSIONS: &str = "an even number from 12 to 20, or a range such as `12..=20`";
 const SEEDS: &str = "a number below 2^64, or a range such as `1..=100`";
@@ -177,6 +177,7 @@ fn parse_kind(text: &str) -> Result<Kind, GenSpecError> {
     match (name, setting) {
         ("division", None) => Ok(Kind::Division),
         ("braid", None) => Ok(Kind::Braid),
+        ("stretches", None) => Ok(Kind::Stretches),
         ("tree", None) => Ok(Kind::Tree {
             loops: Kind::DEFAULT_LOOPS,
         }),
@@ -234,6 +235,7 @@ mod tests {
                 "gen:braid:20:18446744073709551615",
                 1,
             ),
+            ("gen:stretches:18:3", "gen:stretches:18:3", 1),
             ("gen:tree:14:7", "gen:tree,loops=12:14:7", 1),
             ("gen:tree,loops=0:14:07", "gen:tree,loops=0:14:7", 1),
             (
@@ -271,15 +273,15 @@ mod tests {
             ),
             (
                 "gen:hedge:16:1",
-                "kind: expected `division`, `tree`, `tree,loops=PERCENT` or `braid`, found `hedge`",
+                "kind: expected `division`, `tree`, `tree,loops=PERCENT`, `braid` or `stretches`, found `hedge`",
             ),
             (
                 "gen:braid,loops=3:16:1",
-                "kind: expected `division`, `tree`, `tree,loops=PERCENT` or `braid`, found `braid,loops=3`",
+                "kind: expected `division`, `tree`, `tree,loops=PERCENT`, `braid` or `stretches`, found `braid,loops=3`",
             ),
             (
                 "gen:tree,twist=3:16:1",
-                "kind: expected `division`, `tree`, `tree,loops=PERCENT` or `braid`, found `tree,twist=3`",
+                "kind: expected `division`, `tree`, `tree,loops=PERCENT`, `braid` or `stretches`, found `tree,twist=3`",
             ),
             (
                 "gen:tree,loops=101:16:1",

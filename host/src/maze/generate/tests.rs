@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 use super::*;
 use crate::maze::format::{self, Format};
 use crate::maze::{Cell, Heading, Walls, distances_from, violations};
-use crate::maze::{Metric, unreachable_cells};
+use crate::maze::{Metric, shortest_path, unreachable_cells};
 
 fn every_kind() -> impl Iterator<Item = Kind> {
     let trees = [0, 100].map(|loops| Kind::Tree { loops });
@@ -48,7 +48,7 @@ fn generated_mazes_are_legal_and_survive_every_format() {
 }
 
 #[test]
-#[ignore = "15,000 mazes take a while: run with --ignored"]
+#[ignore = "20,000 mazes take a while: run with --ignored"]
 fn a_thousand_mazes_of_each_kind_and_size_are_legal_and_survive_every_format() {
     for_each(Kind::ALL.into_iter(), 0..1_000, |name, maze| {
         check_legal(name, maze);
@@ -63,6 +63,7 @@ fn the_same_specification_gives_the_same_bytes_for_ever() {
         "gen:division:12:1",
         "gen:tree:16:42",
         "gen:braid:20:18446744073709551615",
+        "gen:stretches:14:7",
     ]
     .map(|text| {
         let spec: GenSpec = text.parse().expect("a specification");
@@ -81,6 +82,7 @@ fn the_same_specification_gives_the_same_bytes_for_ever() {
             "gen:division:12:1 b1640fed633d5308",
             "gen:tree:16:42 aca3412247ffbd8b",
             "gen:braid:20:18446744073709551615 6f446a69cb83a2e8",
+            "gen:stretches:14:7 b40b72e65ee915bb",
         ]
     );
 }
@@ -131,7 +133,7 @@ fn each_kind_has_its_character() {
             )
         })
     };
-    let [division, tree, braid] = Kind::ALL.map(totals);
+    let [division, tree, braid, stretches] = Kind::ALL.map(totals);
     assert!(
         braid.0 > tree.0 && tree.0 > division.0,
         "braid has the most loops"
@@ -140,6 +142,18 @@ fn each_kind_has_its_character() {
     assert!(division.2 > 8 * 40, "division leaves places without walls");
     // The post in the middle of the goal room is bare in every maze.
     assert_eq!(braid.2, 40, "braid leaves no post without a wall");
+    assert!(
+        stretches.0 > division.0 && stretches.1 < division.1 && 4 * stretches.2 < division.2,
+        "stretches have more loops than division, fewer dead ends and bare posts"
+    );
+    let optimum = |kind| -> u32 {
+        let optima = (0..40).map(|seed| shortest_path(&generate(kind, 16, seed), Metric::STEPS));
+        optima.map(|path| path.expect("solvable").steps()).sum()
+    };
+    assert!(
+        4 * optimum(Kind::Stretches) < 3 * optimum(Kind::Division),
+        "stretches have short ways"
+    );
 }
 
 fn open_edges(walls: &Walls) -> usize {

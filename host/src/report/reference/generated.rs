@@ -44,9 +44,8 @@ fn reading(page: &Reference<'_>) -> String {
     let each = page.study.groups.first().map_or(0, |it| it.mazes.len()) / dimensions.len().max(1);
     format!(
         "## Generated mazes\n\n\
-         {each} mazes of each of the sizes {}, from each of three generators. Minnett's report has\n\
-         a study of 500 mazes from the first of them. Robots are ordered by finished mazes, then\n\
-         by mean regret. All averages are over the finished mazes alone.\n\n\
+         {each} mazes of each of the sizes {}, from each of {} generators. Robots are ordered by\n\
+         finished mazes, then by mean regret. All averages are over the finished mazes alone.\n\n\
          - **finished**: mazes in which the robot reached the goal in run 2.\n\
          - **optimal**: the share of those with a run 2 as short as the maze allows.\n\
          - **score**: the mean score.\n\
@@ -63,6 +62,7 @@ fn reading(page: &Reference<'_>) -> String {
          explored; here they are at 100 % and at 60 %, the share that he chose. His figures for the\n\
          official mazes take 23 as the optimum of both maze 02 and maze 03, which is 22 and 25.\n",
         sizes.join(", "),
+        page.study.groups.len(),
         page.contest().rules.exploration_divisor,
         benchmarks.finish()
     )
@@ -71,8 +71,8 @@ fn reading(page: &Reference<'_>) -> String {
 fn family(page: &Reference<'_>, group: &Group) -> String {
     let about = match group.spec.kind() {
         Kind::Division => {
-            "Minnett's generator: stretches of four edges, three of them walls. Open places,\n\
-             free-standing walls, and dead ends all the same."
+            "Minnett's generator as his report describes it: stretches of four edges, three of them\n\
+             walls. Open places, free-standing walls, and dead ends all the same."
         }
         Kind::Tree { .. } => {
             "A random spanning tree, some of its walls opened. Winding, with many dead ends."
@@ -80,6 +80,10 @@ fn family(page: &Reference<'_>, group: &Group) -> String {
         Kind::Braid => {
             "Straights and diagonal staircases with most dead ends joined: like mazes that people\n\
              draw for contests."
+        }
+        Kind::Stretches => {
+            "Minnett's generator as his program has it: stretches of one to five edges with one\n\
+             opening each. Short ways to the goal."
         }
     };
     let groups = std::slice::from_ref(group);

@@ -186,6 +186,7 @@ fn the_study_counts_by_size_and_ranks() {
             "| `minnett:final` | 14 | 2 of 2 | 50.00 % |",
             "| `flood:reset` | 12 | 1 of 2 | 100.00 % |",
             "| `flood:reset` | 0 | 1 | 0 | `gen:division:12:1` |\n",
+            "|  | report | ours, division |\n",
             "| finished | 483 of 500 (96.60 %) | 4 of 4 (100.00 %) |\n",
             "| by, on average | +2.770 | +",
             "### Fuel for a decision\n",

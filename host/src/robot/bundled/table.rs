@@ -126,7 +126,7 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/minnett.wasm"),
-        sha256: "a5aae58f36052b6cbeb2a21151853a90d349fb08d567c8d92e13565d66681ee6",
+        sha256: "e3e8e23fed8545801719c738976353c38f00431ce9d20c48ad7976a0eada9da3",
     },
     BundledRobot {
         name: "rai",
