@@ -1,91 +1,14 @@
-//! Small robots in WebAssembly text for the tests of verdicts and refusals, and a
-//! good robot that has to play as ever beside them.
+//! Small robots in WebAssembly text on a host in this process, and a good robot that
+//! has to play as ever beside them.
 
 use std::sync::OnceLock;
 
 use wasmouse::maze::{self, format};
 use wasmouse::robot::bundled::find;
-use wasmouse::robot::componentize::componentize;
 use wasmouse::robot::{Digest, Game, Host, Outcome, Recorder};
 use wasmouse::sim::{Limits, Ruleset};
 
-/// Where [`Module`] keeps the action "straight, 1 cell" in its memory.
-pub const DRIVE_ON: &str = "i32.const 16";
-
-/// The parts of a robot in text. Each part is written in the text format, and what
-/// is not given does what a harmless robot would do.
-#[derive(Clone, Copy)]
-pub struct Module<'a> {
-    /// Body of `start`.
-    pub start: &'a str,
-    /// Body of `next-move`; leaves a pointer to the answer.
-    pub next: &'a str,
-    /// Imports of the module, which come first.
-    pub imports: &'a str,
-    /// The memory, which has to be exported under the name `memory`.
-    pub memory: &'a str,
-    /// More fields of the module.
-    pub rest: &'a str,
-}
-
-impl Default for Module<'_> {
-    fn default() -> Self {
-        Self {
-            start: "",
-            next: DRIVE_ON,
-            imports: "",
-            memory: r#"(memory (export "memory") 1)"#,
-            rest: "",
-        }
-    }
-}
-
-/// The parameters of `start`: the 13 numbers of the briefing.
-pub const START_PARAMETERS: &str = "(param i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i64 i32)";
-
-/// `log` of the journal as a module imports it: level, pointer, length.
-pub const IMPORT_LOG: &str = r#"(import "wasmouse:robot/journal@0.1.0" "log"
-    (func $log (param i32 i32 i32)))"#;
-
-impl Module<'_> {
-    /// The module as text.
-    pub fn wat(&self) -> String {
-        let Self {
-            start,
-            next,
-            imports,
-            memory,
-            rest,
-        } = self;
-        format!(
-            r#"(module
-                {imports}
-                {memory}
-                ;; the action at 16: move, straight, 1
-                (data (i32.const 16) "\00\01\01")
-                {rest}
-                (func (export "wasmouse:robot/controller@0.1.0#start")
-                    {START_PARAMETERS} {start})
-                (func (export "wasmouse:robot/controller@0.1.0#next-move")
-                    (param i32 i32 i32) (result i32) {next}))"#
-        )
-    }
-
-    /// The module in binary form.
-    pub fn core(&self) -> Vec<u8> {
-        wasm(&self.wat())
-    }
-
-    /// The robot: a component around the module.
-    pub fn component(&self) -> Vec<u8> {
-        componentize(&self.core()).unwrap_or_else(|error| panic!("{error}\n{}", self.wat()))
-    }
-}
-
-/// The binary form of a module or component in text.
-pub fn wasm(text: &str) -> Vec<u8> {
-    wat::parse_str(text).unwrap_or_else(|error| panic!("{error}\n{text}"))
-}
+pub use wasmouse_tests::module::{DRIVE_ON, IMPORT_LOG, Module, START_PARAMETERS, wasm};
 
 /// The default rules under other limits.
 pub fn rules(limits: Limits) -> Ruleset {

@@ -4,7 +4,8 @@
 //! [`shared`] and say `skipped: ...` where it is absent.
 
 /// The `wasmouse` binary.
-mod binary;
+use wasmouse_tests::binary;
+
 /// The cache of compiled robots, damaged and unusable.
 mod cache;
 /// The champion's promises: it finishes, its proofs hold, its training is clean.

@@ -1,1 +1,7 @@
-//! Nothing here: the tests are in `it/`.
+//! What the end-to-end tests in `it/` and the program `corpus` share: the `wasmouse`
+//! binary, small robots in text, and the hostile corpus.
+
+pub mod binary;
+pub mod composite;
+pub mod corpus;
+pub mod module;

@@ -6,6 +6,7 @@
 
 use std::path::{Path, PathBuf};
 
+pub mod corpus;
 pub mod manifest;
 pub mod robots;
 pub mod sources;

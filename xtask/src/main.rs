@@ -1,9 +1,10 @@
 //! `cargo xtask`: the commands of a maintainer.
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use xtask::{repository, robots, verify};
+use xtask::{corpus, repository, robots, verify};
 
 /// Automation for the wasmouse repository.
 #[derive(Parser)]
@@ -23,6 +24,13 @@ enum Command {
         #[arg(long)]
         check: bool,
     },
+    /// Play the hostile corpus and print what came of each case; `--help` tells more.
+    #[command(disable_help_flag = true)]
+    Corpus {
+        /// Arguments for the program `corpus`.
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<OsString>,
+    },
 }
 
 fn main() -> ExitCode {
@@ -31,6 +39,7 @@ fn main() -> ExitCode {
         Command::Test => verify::run(&root),
         Command::Robots { check: false } => robots::rebuild(&root),
         Command::Robots { check: true } => robots::check(&root),
+        Command::Corpus { arguments } => corpus::run(&root, &arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -7,8 +7,8 @@
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::robots;
 use crate::step::{Step, target_folder};
+use crate::{corpus, robots};
 
 /// Where the tests find robots that were built from source just now.
 pub const BUILT_ROBOTS_VARIABLE: &str = "WASMOUSE_BUILT_ROBOTS";
@@ -42,6 +42,7 @@ pub fn run(root: &Path) -> Result<(), String> {
         .args(["test", "--workspace"])
         .env(BUILT_ROBOTS_VARIABLE, &built)
         .run()?;
+    corpus::play(root, &[])?;
     eprintln!("everything holds");
     Ok(())
 }

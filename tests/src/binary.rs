@@ -3,24 +3,29 @@
 use std::path::PathBuf;
 use std::process::{Command, ExitStatus, Stdio};
 
-/// The binary beside the folder of this test program: `target/PROFILE/wasmouse`.
+/// The binary in the folder of this program, or above it when this is a test:
+/// `target/PROFILE/wasmouse`.
 ///
 /// The tests are a package of their own, so cargo does not say where it is, nor
 /// does it build it for `cargo test -p wasmouse-tests` alone.
+///
+/// # Panics
+///
+/// When it is not there.
 pub fn path() -> PathBuf {
-    let test = std::env::current_exe().expect("a running program has a path");
+    let program = std::env::current_exe().expect("a running program has a path");
     let name = format!("wasmouse{}", std::env::consts::EXE_SUFFIX);
-    let path: PathBuf = test
-        .ancestors()
-        .nth(2)
-        .expect("tests are in target/PROFILE/deps")
-        .join(name);
-    assert!(
-        path.is_file(),
-        "no `{}`: build it with `cargo build --workspace --bins`, or run `cargo xtask test`",
-        path.display()
-    );
-    path
+    let folders = program.ancestors().skip(1).take(2);
+    let path = folders
+        .map(|folder| folder.join(&name))
+        .find(|path| path.is_file());
+    path.unwrap_or_else(|| {
+        panic!(
+            "no `{name}` beside `{}`: build it with `cargo build --workspace --bins`, \
+             or run `cargo xtask test`",
+            program.display()
+        )
+    })
 }
 
 /// A call of the binary.
@@ -42,7 +47,7 @@ pub struct Ran {
 ///
 /// # Panics
 ///
-/// When it printed something else than text, or panicked.
+/// When it cannot be run, printed something else than text, or panicked.
 #[track_caller]
 pub fn ran(command: &mut Command) -> Ran {
     let output = command
@@ -60,6 +65,10 @@ pub fn ran(command: &mut Command) -> Ran {
 }
 
 /// Runs a command that has to succeed and returns its standard output.
+///
+/// # Panics
+///
+/// When it fails.
 #[track_caller]
 pub fn stdout_of(command: &mut Command) -> String {
     let Ran {

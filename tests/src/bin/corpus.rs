@@ -1,0 +1,168 @@
+//! `corpus`: plays the hostile corpus through the `wasmouse` binary and prints a table,
+//! or writes the files for another host.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use clap::Parser;
+use serde_json::{Value, json};
+use wasmouse_tests::binary;
+use wasmouse_tests::corpus::{Bench, Case, Judgement, Mode, cases};
+
+/// Play the hostile corpus and print what came of each case.
+#[derive(Parser)]
+struct Cli {
+    /// Only cases with this number, or with this in their name
+    #[arg(value_name = "CASE")]
+    only: Vec<String>,
+    /// Also the cases that take long, up to minutes each
+    #[arg(long)]
+    long: bool,
+    /// Only this mode: `isolated` or `trusted`
+    #[arg(long, value_name = "MODE", value_parser = mode)]
+    mode: Option<Mode>,
+    /// Write the files and `index.json` to this folder and play nothing
+    #[arg(long, value_name = "FOLDER")]
+    write: Option<PathBuf>,
+    /// The program; by default the one beside this program
+    #[arg(long, value_name = "FILE")]
+    wasmouse: Option<PathBuf>,
+}
+
+fn mode(name: &str) -> Result<Mode, String> {
+    [Mode::Isolated, Mode::Trusted]
+        .into_iter()
+        .find(|mode| mode.name() == name)
+        .ok_or_else(|| "there are `isolated` and `trusted`".to_owned())
+}
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let cases: Vec<Case> = cases()
+        .into_iter()
+        .filter(|case| is_meant(&cli, case))
+        .collect();
+    let outcome = match &cli.write {
+        Some(folder) => write(folder, &cases).map(|()| true),
+        None => play(&cli, &cases),
+    };
+    match outcome {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn is_meant(cli: &Cli, case: &Case) -> bool {
+    let fits = |text: &String| match text.parse::<u8>() {
+        Ok(number) => case.numbers.contains(&number),
+        Err(_) => case.name.contains(text.as_str()),
+    };
+    let is_played = cli.long || !case.is_long || cli.write.is_some();
+    is_played && (cli.only.is_empty() || cli.only.iter().any(fits))
+}
+
+/// Plays the cases and says whether all is well.
+fn play(cli: &Cli, cases: &[Case]) -> io::Result<bool> {
+    let program = cli.wasmouse.clone().unwrap_or_else(binary::path);
+    let bench = Bench::new(&program)?;
+    let is_meant = |mode: &Mode| cli.mode.is_none_or(|only| only == *mode);
+    let modes: Vec<Mode> = bench.modes().iter().copied().filter(is_meant).collect();
+    if modes.is_empty() {
+        return Err(io::Error::other("this program does not have the mode"));
+    }
+    println!(
+        "{:<6} {:<44} {:<9} {:<34} {:>6} {:>5} {:>5} {:>7}  ok",
+        "number", "name", "mode", "verdict", "s", "MiB", "all", "ns/fuel"
+    );
+    let begin = Instant::now();
+    let (mut count, mut bad) = (0, 0);
+    for mode in modes {
+        for case in cases {
+            let judgement = bench.judge(case, mode)?;
+            print(case, mode, &judgement);
+            count += 1;
+            bad += usize::from(!judgement.is_well());
+        }
+    }
+    println!(
+        "{count} played in {:.0} s, {bad} not as expected",
+        begin.elapsed().as_secs_f64()
+    );
+    Ok(bad == 0)
+}
+
+fn print(case: &Case, mode: Mode, judgement: &Judgement) {
+    println!(
+        "{:<6} {:<44} {:<9} {:<34} {:>6.2} {:>5} {:>5} {:>7}  {}",
+        case.numbers_text(),
+        case.name,
+        mode.name(),
+        judgement.verdict,
+        judgement.time.as_secs_f64(),
+        judgement.first_bytes >> 20,
+        judgement.all_bytes >> 20,
+        nanoseconds_per_fuel(judgement),
+        if judgement.is_well() { "ok" } else { "NO" },
+    );
+    for problem in &judgement.problems {
+        println!("       expected {}; {problem}", judgement.expected);
+    }
+}
+
+/// Where a robot used so much fuel that the rest does not count.
+fn nanoseconds_per_fuel(judgement: &Judgement) -> String {
+    const FUEL_MIN: u64 = 500_000_000;
+    /// What starting the program and the good robot take.
+    const AROUND: Duration = Duration::from_millis(60);
+    if judgement.fuel < FUEL_MIN {
+        return String::new();
+    }
+    let nanoseconds = judgement.time.saturating_sub(AROUND).as_secs_f64() * 1e9;
+    #[expect(clippy::cast_precision_loss, reason = "a figure to look at")]
+    let each = nanoseconds / judgement.fuel as f64;
+    format!("{each:.2}")
+}
+
+/// Writes every file as `NAME.wasm`, and the cases as `index.json`.
+fn write(folder: &Path, cases: &[Case]) -> io::Result<()> {
+    fs::create_dir_all(folder)?;
+    let mut index = Vec::new();
+    for case in cases {
+        let mut names = Vec::new();
+        let files = case.files();
+        for (at, file) in files.iter().enumerate() {
+            let name = if files.len() > 1 {
+                format!("{}-{at:05}.wasm", case.name)
+            } else {
+                format!("{}.wasm", case.name)
+            };
+            fs::write(folder.join(&name), file)?;
+            names.push(name);
+        }
+        index.push(entry(case, &names));
+    }
+    let index = json!({"schema": 1, "cases": index});
+    let text = serde_json::to_string_pretty(&index)?;
+    fs::write(folder.join("index.json"), format!("{text}\n"))?;
+    println!("{} cases in `{}`", cases.len(), folder.display());
+    Ok(())
+}
+
+fn entry(case: &Case, files: &[String]) -> Value {
+    json!({
+        "numbers": case.numbers,
+        "name": case.name,
+        "files": files,
+        "expected_one_of": case.expected,
+        "seconds_max": case.seconds_max,
+        "mebibytes_max": case.megabytes_max,
+        "arguments": case.arguments,
+    })
+}

@@ -1,0 +1,163 @@
+//! [`measure`]: a command's time, the memory of all its processes, and whether one of
+//! them stays behind.
+//!
+//! Processes are told by their executable: the caller runs the program under a path
+//! that nobody else uses, so every process of it is found, whoever its parent is.
+//! Linux alone says these things (`/proc`); elsewhere memory is told as zero.
+
+use std::fs::{self, File};
+use std::io;
+use std::path::Path;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// What a command did and needed.
+#[derive(Debug)]
+pub struct Measured {
+    /// How it ended; `None` when it was ended for taking too long.
+    pub status: Option<ExitStatus>,
+    /// What it printed.
+    pub stdout: String,
+    /// What it said.
+    pub stderr: String,
+    /// How long it took.
+    pub time: Duration,
+    /// The largest resident memory of the process that was started, in bytes.
+    pub first_bytes: u64,
+    /// The largest sum over all processes that lived at the same time, each counted
+    /// with its largest so far, in bytes.
+    pub all_bytes: u64,
+    /// Processes that were still there when the first had ended.
+    pub left_behind: usize,
+}
+
+/// How often memory is looked at. A process tells its peak itself, so a short one is
+/// not missed as long as its process lives on for that long.
+const SAMPLE: Duration = Duration::from_millis(2);
+
+/// How long processes may outlive the first.
+const GRACE: Duration = Duration::from_secs(2);
+
+/// Runs the program with what it prints kept in files of that folder.
+///
+/// # Errors
+///
+/// When it cannot be run, or its output cannot be kept.
+pub fn measure(
+    program: &Path,
+    arguments: &[String],
+    folder: &Path,
+    time_max: Duration,
+) -> io::Result<Measured> {
+    let (stdout, stderr) = (folder.join("stdout"), folder.join("stderr"));
+    let begin = Instant::now();
+    let mut child = Command::new(program)
+        .args(arguments)
+        .current_dir(folder)
+        .stdin(Stdio::null())
+        .stdout(File::create(&stdout)?)
+        .stderr(File::create(&stderr)?)
+        .spawn()?;
+    let mut memory = Memory::default();
+    let status = loop {
+        if let Some(status) = child.try_wait()? {
+            break Some(status);
+        }
+        memory.sample(program, child.id());
+        if begin.elapsed() > time_max {
+            stop(program, &mut child)?;
+            break None;
+        }
+        thread::sleep(SAMPLE);
+    };
+    let time = begin.elapsed();
+    let left_behind = left_behind(program);
+    let text =
+        |path: &Path| fs::read(path).map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+    Ok(Measured {
+        status,
+        stdout: text(&stdout)?,
+        stderr: text(&stderr)?,
+        time,
+        first_bytes: memory.first,
+        all_bytes: memory.all,
+        left_behind,
+    })
+}
+
+/// Ends the program and everything that it started.
+fn stop(program: &Path, child: &mut Child) -> io::Result<()> {
+    child.kill()?;
+    child.wait()?;
+    kill_all(program);
+    Ok(())
+}
+
+/// Waits until no process of the program is there, and counts those that stay.
+fn left_behind(program: &Path) -> usize {
+    let begin = Instant::now();
+    loop {
+        let left = processes(program).len();
+        if left == 0 || begin.elapsed() > GRACE {
+            kill_all(program);
+            return left;
+        }
+        thread::sleep(SAMPLE);
+    }
+}
+
+fn kill_all(program: &Path) {
+    for process in processes(program) {
+        // Without `libc`, the system's own command; what has ended meanwhile is fine.
+        let _ = Command::new("kill")
+            .args(["-KILL", &process.to_string()])
+            .stderr(Stdio::null())
+            .status();
+    }
+}
+
+#[derive(Default)]
+struct Memory {
+    first: u64,
+    all: u64,
+}
+
+impl Memory {
+    fn sample(&mut self, program: &Path, first: u32) {
+        let mut sum = 0;
+        for process in processes(program) {
+            let peak = peak_bytes(process);
+            if process == first {
+                self.first = self.first.max(peak);
+            }
+            sum += peak;
+        }
+        self.all = self.all.max(sum);
+    }
+}
+
+/// The processes that run this executable.
+fn processes(program: &Path) -> Vec<u32> {
+    let Ok(entries) = fs::read_dir("/proc") else {
+        return Vec::new();
+    };
+    entries
+        .filter_map(|entry| entry.ok()?.file_name().to_str()?.parse().ok())
+        .filter(|process| {
+            fs::read_link(format!("/proc/{process}/exe"))
+                .is_ok_and(|executable| executable == program)
+        })
+        .collect()
+}
+
+/// The largest resident memory that a process has had, in bytes; 0 when it is gone.
+fn peak_bytes(process: u32) -> u64 {
+    let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"));
+    let kilobytes = line.and_then(|line| line.split_whitespace().nth(1));
+    kilobytes
+        .and_then(|number| number.parse::<u64>().ok())
+        .unwrap_or(0)
+        << 10
+}

@@ -1,0 +1,306 @@
+//! Memory: linear memories, tables and segments, as many and as large as they get.
+
+use super::case::{Case, fault, fault_in, harmless, refused};
+use crate::module::{DRIVE_ON, Module};
+
+/// The cases 24 to 34.
+pub fn cases() -> Vec<Case> {
+    [memories(), tables(), proposals(), segments()]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+/// A robot with that memory and these fields.
+fn with(memory: &str, rest: &str) -> Vec<u8> {
+    Module {
+        memory,
+        rest,
+        ..Module::default()
+    }
+    .component()
+}
+
+const MEMORY: &str = r#"(memory (export "memory") 1)"#;
+
+/// The most that a robot that uses all of its memory makes of the host, in MiB.
+pub(super) const ALL_MEMORY: u64 = 450;
+
+fn memories() -> Vec<Case> {
+    let over = |bytes: u64| format!("asked for {bytes} bytes of memory in all, of 268435456");
+    vec![
+        Case::new(
+            &[24],
+            "initial-memory-of-4-gib",
+            refused(
+                "over-limit",
+                "the component needs a memory of 4294967296 bytes, and the limit is 268435456",
+            ),
+            || with(r#"(memory (export "memory") 65536)"#, ""),
+        )
+        .shown(),
+        Case::new(
+            &[24],
+            "initial-memory-one-page-over",
+            refused(
+                "over-limit",
+                "the component needs a memory of 268500992 bytes, and the limit is 268435456",
+            ),
+            || with(r#"(memory (export "memory") 4097)"#, ""),
+        ),
+        Case::new(
+            &[25],
+            "growth-to-the-maximum-in-core-start",
+            harmless(),
+            || {
+                with(MEMORY, "(func $begin
+                (loop $again (br_if $again (i32.lt_u (memory.grow (i32.const 1)) (i32.const 4094)))))
+                (start $begin)")
+            },
+        ),
+        Case::new(
+            &[25],
+            "growth-over-the-maximum-in-core-start",
+            fault_in("instantiate", 0, "memory-limit", &over(268_500_992)),
+            || {
+                with(
+                    MEMORY,
+                    "(func $begin
+                (loop $again (drop (memory.grow (i32.const 1))) (br $again)))
+                (start $begin)",
+                )
+            },
+        ),
+        Case::new(
+            &[25],
+            "growth-to-4-gib-at-once",
+            fault("memory-limit", &over(4_294_967_296)),
+            || {
+                Module {
+                    next: "(drop (memory.grow (i32.const 65535))) i32.const 16",
+                    ..Module::default()
+                }
+                .component()
+            },
+        ),
+        Case::new(
+            &[26],
+            "many-memories-each-under-the-limit",
+            fault_in("instantiate", 0, "memory-limit", &over(268_566_528)),
+            || {
+                with(
+                    r#"(memory (export "memory") 2)"#,
+                    &"(memory 1024)".repeat(5),
+                )
+            },
+        ),
+        Case::new(
+            &[26],
+            "9-memories",
+            refused(
+                "over-limit",
+                "the component needs 9 memories, and the limit is 8",
+            ),
+            || with(MEMORY, &"(memory 1)".repeat(8)),
+        ),
+        Case::new(&[27], "touching-every-page", harmless(), || {
+            Module {
+                memory: r#"(memory (export "memory") 4096)"#,
+                next: "(local $at i32)
+                    (loop $again
+                        (i32.store offset=4092 (local.get $at) (i32.const 1))
+                        (local.set $at (i32.add (local.get $at) (i32.const 4096)))
+                        (br_if $again (i32.lt_u (local.get $at) (i32.const 0x10000000))))
+                    i32.const 16",
+                ..Module::default()
+            }
+            .component()
+        })
+        .megabytes(ALL_MEMORY)
+        .seconds(30),
+    ]
+}
+
+fn tables() -> Vec<Case> {
+    vec![
+        Case::new(
+            &[28],
+            "table-of-10-million",
+            refused(
+                "over-limit",
+                "the component needs a table of 10000000 elements, and the limit is 100000",
+            ),
+            || with(MEMORY, "(table 10000000 funcref)"),
+        ),
+        Case::new(
+            &[28],
+            "tables-over-the-limit-together",
+            fault_in(
+                "instantiate",
+                0,
+                "table-limit",
+                "asked for 120000 table elements in all, of 100000",
+            ),
+            || with(MEMORY, "(table 60000 funcref) (table 60000 funcref)"),
+        ),
+        Case::new(
+            &[29],
+            "table-growth-for-ever",
+            fault(
+                "table-limit",
+                "asked for 100001 table elements in all, of 100000",
+            ),
+            || {
+                Module {
+                rest: "(table 1 funcref)",
+                next: "(loop $again (drop (table.grow 0 (ref.null func) (i32.const 1))) (br $again))
+                    unreachable",
+                ..Module::default()
+            }
+            .component()
+            },
+        ),
+        Case::new(
+            &[29],
+            "table-growth-to-a-billion-at-once",
+            fault(
+                "table-limit",
+                "asked for 1000000000 table elements in all, of 100000",
+            ),
+            || {
+                Module {
+                    rest: "(table 0 funcref)",
+                    next: "(drop (table.grow 0 (ref.null func) (i32.const 1000000000))) i32.const 16",
+                    ..Module::default()
+                }
+                .component()
+            },
+        ),
+        Case::new(
+            &[30],
+            "100-tables",
+            refused(
+                "over-limit",
+                "the component needs 100 tables, and the limit is 16",
+            ),
+            || with(MEMORY, &"(table 1 funcref)".repeat(100)),
+        ),
+    ]
+}
+
+fn proposals() -> Vec<Case> {
+    [
+        ("64-bit-memory", "(memory i64 1)", "memory64"),
+        ("shared-memory", "(memory 1 1 shared)", "threads"),
+        (
+            "memory-with-pages-of-a-byte",
+            "(memory 1 (pagesize 1))",
+            "custom page size",
+        ),
+        ("64-bit-table", "(table i64 1 funcref)", "memory64"),
+    ]
+    .into_iter()
+    .map(|(name, field, words)| {
+        Case::new(
+            &[31],
+            name,
+            refused("...", &format!("...{words}...")),
+            move || {
+                Module {
+                    rest: field,
+                    ..Module::default()
+                }
+                .core()
+            },
+        )
+    })
+    .collect()
+}
+
+fn segments() -> Vec<Case> {
+    vec![
+        Case::new(
+            &[32],
+            "data-behind-the-memory",
+            fault_in(
+                "instantiate",
+                0,
+                "out-of-bounds",
+                "accessed memory out of bounds",
+            ),
+            || with(MEMORY, r#"(data (i32.const 65535) "xy")"#),
+        ),
+        Case::new(
+            &[32],
+            "data-at-the-end-of-the-address-space",
+            fault_in(
+                "instantiate",
+                0,
+                "out-of-bounds",
+                "accessed memory out of bounds",
+            ),
+            || with(MEMORY, r#"(data (i32.const -1) "xy")"#),
+        ),
+        Case::new(
+            &[32],
+            "elements-behind-the-table",
+            fault_in(
+                "instantiate",
+                0,
+                "out-of-bounds",
+                "accessed a table out of bounds",
+            ),
+            || {
+                with(
+                    MEMORY,
+                    "(table 1 funcref) (elem (i32.const 1) $idle) (func $idle)",
+                )
+            },
+        ),
+        Case::new(&[33], "100000-data-segments", harmless(), || {
+            // All but the one that every robot here has.
+            with(MEMORY, &r#"(data (i32.const 99) "x")"#.repeat(99_999))
+        })
+        .seconds(20),
+        Case::new(
+            &[33],
+            "100001-data-segments",
+            refused("...", "...data segments...100000..."),
+            || {
+                Module {
+                    rest: &r#"(data (i32.const 99) "x")"#.repeat(100_000),
+                    ..Module::default()
+                }
+                .core()
+            },
+        )
+        .seconds(20),
+        Case::new(
+            &[33],
+            "passive-segments-and-their-drops",
+            harmless(),
+            || {
+                let drops: String = (1..1000).map(|at| format!("(data.drop {at})")).collect();
+                Module {
+                    rest: &r#"(data "x")"#.repeat(1000),
+                    next: &format!("{drops} {DRIVE_ON}"),
+                    ..Module::default()
+                }
+                .component()
+            },
+        ),
+        // Two bytes of a file that would be a quarter of a gigabyte as an image.
+        Case::new(&[34], "sparse-image", harmless(), || {
+            with(
+                r#"(memory (export "memory") 4096)"#,
+                r#"(data (i32.const 0) "a") (data (i32.const 0x0ff00000) "b")"#,
+            )
+        }),
+        Case::new(&[34], "sparse-image-of-many-bytes", harmless(), || {
+            let data: String = (0..4095)
+                .map(|page| format!(r#"(data (i32.const {}) "x")"#, page * 65536 + 40_000))
+                .collect();
+            with(r#"(memory (export "memory") 4096)"#, &data)
+        }),
+    ]
+}
