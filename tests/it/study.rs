@@ -46,6 +46,8 @@ fn the_page_is_the_same_on_any_number_of_threads() {
     for part in [
         "\nwasmouse study flood:certain random count-expansion --quick\n",
         "**Absent when this page was written: `test_maze_02`, `test_maze_03`.**",
+        "## Competition mazes\n",
+        "**Absent when this page was written.** `--competition FOLDER`",
         "| `flood:certain` | 21.867 (146 + 17) | - | - | - |\n",
         "| 01 | 44.100 | 45.200 (36 + 44) | +2.5 % |\n",
         "| `flood:certain` | 80 of 80 | 100.00 % |",
@@ -91,6 +93,9 @@ fn bad_input_is_refused_before_anything_is_played() {
     let official = include_str!("../../host/mazes/division-14.txt");
     fs::create_dir(folder.join("mazes")).expect("a folder");
     fs::write(folder.join("mazes/test_maze_02.txt"), official).expect("a maze");
+    fs::create_dir(folder.join("empty")).expect("a folder");
+    fs::create_dir(folder.join("broken")).expect("a folder");
+    fs::write(folder.join("broken/a.txt"), "no maze").expect("a file");
     for (arguments, code, expected) in [
         (&["flood", "-o", "mazes"][..], 3, "`mazes`"),
         (
@@ -102,6 +107,17 @@ fn bad_input_is_refused_before_anything_is_played() {
             &["flood", "--official", "mazes"],
             3,
             "`mazes/test_maze_02.txt` is not the official maze of that name: its digest is sha256:",
+        ),
+        (
+            &["flood", "--competition", "nowhere"],
+            3,
+            "failed to read mazes from `nowhere`: not a folder",
+        ),
+        (&["flood", "--competition", "empty"], 3, "has no mazes"),
+        (
+            &["flood", "--competition", "broken"],
+            3,
+            "failed to parse maze `./broken/a.txt`",
         ),
         (
             &["flood:nosuch"],
@@ -129,25 +145,73 @@ fn a_refused_robot_is_on_the_page_and_in_the_exit_code() {
     );
 }
 
+/// Two mazes with one entrance, one of which the wall follower loses, one with
+/// several, and one whose goal cannot be reached.
 #[test]
-fn official_mazes_are_found_in_a_folder_or_in_the_shared_material() {
+fn competition_mazes_are_told_apart_by_their_entrances() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    fs::create_dir(folder.join("contests")).expect("a folder");
+    let one = include_str!("../../host/mazes/division-14.txt");
+    let open = "4\n3,7,7,6\n11,15,15,14\n11,15,15,14\n9,13,13,12";
+    let closed = "4\n0,3,7,6\n3,15,15,14\n11,15,15,14\n9,13,13,12";
+    let official = include_str!("../../host/mazes/test_maze_01.txt");
+    for (name, text) in [
+        ("one.txt", one),
+        ("two.txt", official),
+        ("open.txt", open),
+        ("closed.txt", closed),
+        ("README.md", "no maze"),
+    ] {
+        fs::write(folder.join("contests").join(name), text).expect("a file");
+    }
+    let robots = ["flood:certain", "wall-follower:left"];
+    let arguments = ["-o", "page.md", "--competition", "contests"];
+    check_code(&study(folder, &[&robots[..], &arguments].concat()), 0);
+    let page = fs::read_to_string(folder.join("page.md")).expect("a page");
+    for part in [
+        "\nwasmouse study flood:certain wall-follower:left --competition FOLDER --quick\n",
+        "\n1 more were left out because their goal cannot be reached.\n",
+        "### Competition mazes with one entrance: 2 mazes\n",
+        "| `flood:certain` | 2 of 2 | 100.00 % |",
+        "### Competition mazes with several entrances: 1 mazes\n",
+        "| `flood:certain` | 1 of 1 | 100.00 % |",
+        "Not finished:\n",
+        "| `wall-follower:left` | `one`, `two`",
+        "| of competitions, several entrances | `",
+    ] {
+        assert!(page.contains(part), "no `{part}` in\n{page}");
+    }
+}
+
+#[test]
+fn mazes_are_found_in_folders_or_in_the_shared_material() {
     let Some(shared) = shared() else {
         return;
     };
     let folder = tempfile::tempdir().expect("a temporary folder");
     let folder = folder.path();
-    let mazes = shared
-        .join("mazes/udacity")
-        .canonicalize()
-        .expect("a folder");
-    let mazes = mazes.to_str().expect("UTF-8");
-    let arguments = ["flood:certain", "-o", "page.md", "--official", mazes];
+    let [mazes, contests] = ["mazes/udacity", "mazes/competition"].map(|name| {
+        let path = shared.join(name).canonicalize().expect("a folder");
+        path.to_str().expect("UTF-8").to_owned()
+    });
+    let arguments = [
+        "flood:certain",
+        "-o",
+        "page.md",
+        "--official",
+        &mazes,
+        "--competition",
+        &contests,
+    ];
     check_code(&study(folder, &arguments), 0);
     let page = fs::read_to_string(folder.join("page.md")).expect("a page");
     let row = "| `flood:certain` | 21.867 (146 + 17) | 28.433 (193 + 22) | 34.367 (281 + 25) \
                | 84.667 |\n";
     assert!(page.contains(row), "{page}");
-    assert!(!page.contains(mazes), "no path of this machine");
+    assert!(!page.contains(&mazes) && !page.contains(&contests));
+    // All but the four of each kind that a quick study plays are left out.
+    assert!(page.contains("with several entrances: 4 mazes\n"), "{page}");
 
     let output = binary::wasmouse()
         .args(["study", "--quick", "flood:certain", "-o", "other.md"])

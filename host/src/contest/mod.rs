@@ -18,5 +18,8 @@ pub use run::{
     Contest, ContestError, ContestMaze, Entrant, FailedMatch, MatchResult, Played, Progress,
 };
 pub use standings::{Standing, standings};
-pub use study::{Group, STUDY_QUICK, STUDY_SEEDS, Study, study_families};
+pub use study::{
+    CompetitionMazes, Group, STUDY_QUICK, STUDY_QUICK_COMPETITION, STUDY_SEEDS, Study,
+    study_families,
+};
 pub use tally::{Against, Regret, Tally};

@@ -259,12 +259,10 @@ fn study(page: &Reference<'_>, published: &PublishedStudy) -> Option<String> {
          {} in 100 mazes of each size from 12 to 20 ({}). The report's figures are for mazes of\n\
          the author's program, which does not make them as the report describes it. Ours are:\n\n\
          {mazes}\n\
-         In 17 mazes the report's robot looped for ever, and its averages leave them out. Ours has\n\
-         a guard that ends such loops and says so in the robot's journal, so what it does without\n\
-         the guard is counted apart. The share of 500 such mazes is uncertain by 1.6 % (one standard\n\
-         error) because of the mazes alone.\n\n{}",
+         {}\n\n{}",
         label(published.robot, Some(published.setting)),
         published.place,
+        published.remark,
         study_table(published, &columns)
     ))
 }
@@ -279,8 +277,7 @@ struct StudyColumn {
 
 impl StudyColumn {
     fn new(page: &Reference<'_>, entrant: usize, group: &Group) -> Self {
-        let results = page.study.of_entrant(entrant);
-        let results = results.filter(|result| group.mazes.contains(&result.maze));
+        let results = page.study.in_mazes(entrant, &group.mazes);
         let is_silent = |result: &&MatchResult| result.journal == (0, 0);
         Self {
             kind: group.spec.kind(),

@@ -9,7 +9,12 @@ use crate::maze::generate::Kind;
 use crate::robot::Verdict;
 
 /// A list of unfinished mazes longer than this is only counted.
-const UNFINISHED_MAX: usize = 20;
+pub(super) const UNFINISHED_MAX: usize = 20;
+
+/// What [`regret_cells`] are.
+pub(super) const REGRET_COLUMNS: [&str; 6] = [
+    "finished", "optimal", "score", "regret", "by run 1", "by run 2",
+];
 
 /// The section with all families.
 pub(super) fn section(page: &Reference<'_>) -> String {
@@ -125,13 +130,10 @@ fn tables(page: &Reference<'_>, groups: &[Group], sizes: &[Option<u8>]) -> Strin
         header.extend(columns);
         header
     };
-    let columns = [
-        "finished", "optimal", "score", "regret", "by run 1", "by run 2",
-    ];
-    let mut regrets = Table::new(&header(&columns), 1);
+    let mut regrets = Table::new(&header(&REGRET_COLUMNS), 1);
     let names = Benchmark::ALL.map(|benchmark| benchmark.name);
     let mut benchmarks = Table::new(&header(&names), 1);
-    for entrant in ranked(page, groups) {
+    for entrant in ranking(page, |entrant| page.study.tally(entrant, groups, None)) {
         for &size in sizes {
             let tally = page.study.tally(entrant, groups, size);
             let mut start = vec![page.competitors[entrant].label()];
@@ -143,7 +145,8 @@ fn tables(page: &Reference<'_>, groups: &[Group], sizes: &[Option<u8>]) -> Strin
     format!("{}\n{}", regrets.finish(), benchmarks.finish())
 }
 
-fn regret_cells(tally: &Tally) -> [String; 6] {
+/// What a robot did in some mazes, for a row of a table.
+pub(super) fn regret_cells(tally: &Tally) -> [String; 6] {
     let regret = |part: fn(crate::contest::Regret) -> Mean| mean(tally.regret.map(part));
     [
         format!("{} of {}", tally.finished, tally.matches),
@@ -169,11 +172,11 @@ fn benchmark_cells(tally: &Tally) -> impl Iterator<Item = String> {
         .into_iter()
 }
 
-/// The entrants that played, the best first.
-fn ranked(page: &Reference<'_>, groups: &[Group]) -> Vec<usize> {
+/// The entrants that played, the best first, by their tallies.
+pub(super) fn ranking(page: &Reference<'_>, tally: impl Fn(usize) -> Tally) -> Vec<usize> {
     let entrants = 0..page.competitors.len();
     let mut ranked: Vec<_> = entrants
-        .map(|entrant| (page.study.tally(entrant, groups, None), entrant))
+        .map(|entrant| (tally(entrant), entrant))
         .filter(|(tally, _)| tally.matches > 0)
         .map(|(tally, entrant)| {
             let regret = tally.regret.map(|regret| regret.total);

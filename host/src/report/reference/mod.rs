@@ -1,5 +1,5 @@
 //! The reference page: the bundled robots in the official mazes, beside what the
-//! reports measured, and in a study of generated mazes. Markdown.
+//! reports measured, in a study of generated mazes, and in competition mazes. Markdown.
 //!
 //! The page is a pure function of results and holds neither times nor dates, so
 //! the same study gives the same bytes. One file for each part of it; the reports'
@@ -8,6 +8,7 @@
 pub mod published;
 
 mod beside;
+mod competition;
 mod generated;
 mod official;
 
@@ -15,7 +16,7 @@ mod official;
 mod tests;
 
 use super::markdown::{Table, code, grouped, mean};
-use crate::contest::{Contest, MatchResult, Mean, Study};
+use crate::contest::{CompetitionMazes, Contest, MatchResult, Mean, Study};
 use crate::robot::bundled::find;
 use crate::robot::{Digest, Verdict, engine_id};
 use crate::sim::Score;
@@ -75,6 +76,8 @@ pub struct Reference<'a> {
     pub study: Study<'a>,
     /// The names of the contest's entrants, in their order.
     pub competitors: &'a [Competitor],
+    /// Where the mazes of competitions are in the contest, if they are.
+    pub competition: Option<CompetitionMazes>,
     /// Where the official mazes 01, 02 and 03 are in the contest, those that are.
     pub official: [Option<usize>; 3],
     /// The random robot alone in maze 01 with many seeds, if it took part.
@@ -93,6 +96,7 @@ impl Reference<'_> {
             official::section(self),
             beside::section(self),
             generated::section(self),
+            competition::section(self),
             self.identity(),
         ];
         let mut page = sections
@@ -104,24 +108,21 @@ impl Reference<'_> {
 
     fn introduction(&self) -> String {
         let mazes: usize = self.study.groups.iter().map(|it| it.mazes.len()).sum();
-        let folder = if self.command.contains("FOLDER") {
-            "`FOLDER` is where `test_maze_02.txt` and `test_maze_03.txt` are, which do not come with\n\
-             wasmouse. "
-        } else {
-            ""
-        };
         format!(
             "# The reference robots\n\n\
              What the robots that come with wasmouse do [in the official mazes](#official-mazes),\n\
-             [beside what the reports say](#beside-the-reports) that their robots did, and\n\
-             [in {} generated mazes](#generated-mazes).\n\n\
+             [beside what the reports say](#beside-the-reports) that their robots did,\n\
+             [in {} generated mazes](#generated-mazes), and\n\
+             [in mazes of competitions](#competition-mazes).\n\n\
              A score is the steps of run 2 plus a share of the steps of run 1, lower is better. A\n\
              robot that knows the maze drives the shortest way, resets, and drives it again: its\n\
              score is the *floor*, and what a score has beyond the floor is its *regret*.\n\n\
              This page is written by\n\n\
              ```sh\n{}\n```\n\n\
-             {folder}The same version writes the same bytes again, on any number of threads;\n\
-             [what was played](#what-was-played) has the engine, the seeds and the hashes.\n",
+             where the folders, if there are any, hold `test_maze_02.txt` and `test_maze_03.txt`, and\n\
+             the mazes of competitions, which do not come with wasmouse. The same version writes the\n\
+             same bytes again, on any number of threads; [what was played](#what-was-played) has the\n\
+             engine, the seeds and the hashes.\n",
             grouped(mazes as u64),
             self.command,
         )
@@ -184,8 +185,15 @@ impl Reference<'_> {
         for group in self.study.groups {
             mazes.row([
                 code(&group.spec.to_string()),
-                code(&group.digest(contest).hex()),
+                code(&self.study.digest(&group.mazes).hex()),
                 grouped(group.mazes.len() as u64),
+            ]);
+        }
+        for (name, set) in self.competition.iter().flat_map(competition::sets) {
+            mazes.row([
+                format!("of competitions, {name}"),
+                code(&self.study.digest(set).hex()),
+                grouped(set.len() as u64),
             ]);
         }
         text.push_str(&mazes.finish());

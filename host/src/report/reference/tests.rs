@@ -88,6 +88,7 @@ impl Made {
                 groups: &self.groups,
             },
             competitors: &self.competitors,
+            competition: None,
             official,
             tries: None,
             command: "wasmouse study".into(),

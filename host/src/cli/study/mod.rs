@@ -1,32 +1,26 @@
 //! `wasmouse study`: the reference page, `docs/REFERENCE.md`.
 //!
-//! Plays the bundled robots in the official mazes and in hundreds of generated
-//! ones. What is compared with what is decided in [`crate::report::reference`].
+//! Plays the bundled robots in the official mazes, in hundreds of generated ones and
+//! in those of competitions. What is compared with what is decided in
+//! [`crate::report::reference`].
 
-use std::env;
+mod mazes;
+
 use std::fs::{self, File};
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::mazes::{self, Legality};
 use super::output::{self, Existing};
 use super::robots::{self, Specification};
 use super::run;
 use super::setup::SetupArgs;
-use crate::contest::{
-    Contest, ContestMaze, Group, MatchResult, STUDY_QUICK, STUDY_SEEDS, Study, study_families,
-};
-use crate::maze::bundled as bundled_mazes;
+use crate::contest::{Contest, MatchResult, Study};
 use crate::report::reference::published::{OFFICIAL, RANDOM_TRIES};
 use crate::report::reference::{Competitor, MARK, Reference};
 use crate::robot::Host;
-
-/// Where a file with the official mazes is looked for when `--official` is not
-/// given: in this folder of the shared material.
-const SHARED_VARIABLE: &str = "WASMOUSE_SHARED";
-const SHARED_FOLDER: &str = "mazes/udacity";
+use mazes::{MazeArgs, Mazes};
 
 /// Tries of the random robot in maze 01.
 const TRIES: u64 = 600;
@@ -35,11 +29,14 @@ const TRIES_QUICK: u64 = 60;
 const LONG_HELP: &str = "\
 Mazes: the official ones, of which wasmouse comes with maze 01 alone; 100 of
 each size from 12 to 20 from each of the four generators, with the seeds
-500001 to 500100. The same version writes the same bytes on any number of
-threads. A page that is there already is replaced if an earlier study wrote it.
+500001 to 500100; and those of competitions, by the number of entrances to
+their goal. The page says so where mazes were absent. The same version writes
+the same bytes on any number of threads. A page that is there already is
+replaced if an earlier study wrote it.
 
 Examples:
-  wasmouse study --official mazes            all bundled robots: docs/REFERENCE.md
+  wasmouse study --official udacity --competition contests
+                                             all bundled robots: docs/REFERENCE.md
   wasmouse study --quick -o quick.md         4 mazes of each size instead of 100
   wasmouse study my-robot.wasm flood -o my.md
 
@@ -48,11 +45,11 @@ Exit codes:
   4  the page was written; a robot was refused or ended a match with a fault
   130  interrupted; no page was written";
 
-/// Write the reference page: robots in official and generated mazes.
+/// Write the reference page: robots in official, generated and competition mazes.
 ///
 /// Puts each robot's scores beside those of the report that it comes from, and
-/// plays hundreds of generated mazes: finished matches, benchmarks, regret and
-/// fuel, by size and generator. The page is Markdown.
+/// plays hundreds of generated mazes and those of competitions: finished matches,
+/// benchmarks, regret and fuel, by size and generator. The page is Markdown.
 #[derive(clap::Args, Debug)]
 #[command(after_long_help = format!("{}\n\n{LONG_HELP}", robots::SPECIFICATION_HELP))]
 pub struct Args {
@@ -62,13 +59,8 @@ pub struct Args {
     /// The page
     #[arg(long, short, value_name = "FILE", default_value = "docs/REFERENCE.md")]
     output: PathBuf,
-    /// The folder with test_maze_02.txt and test_maze_03.txt; by default
-    /// mazes/udacity in the folder $WASMOUSE_SHARED, if there are any
-    #[arg(long, value_name = "FOLDER")]
-    official: Option<PathBuf>,
-    /// Play few generated mazes: 4 of each size and generator
-    #[arg(long)]
-    quick: bool,
+    #[command(flatten)]
+    mazes: MazeArgs,
     /// Replace FILE even if it was not written by a study
     #[arg(long)]
     force: bool,
@@ -80,14 +72,17 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<Exit, Failure> {
     let existing = args.existing()?;
     let specifications = args.specifications()?;
-    let mut mazes = Vec::new();
-    let official = args.official_mazes(&mut mazes)?;
-    let groups = args.groups(&mut mazes);
-    let host = args.setup.host()?;
     let rules = args.setup.rules;
+    let Mazes {
+        all,
+        official,
+        groups,
+        competition,
+    } = args.mazes.load(&rules)?;
+    let host = args.setup.host()?;
     let contest = Contest {
         entrants: robots::load(&specifications, &host)?,
-        mazes,
+        mazes: all,
         seeds: vec![0],
         rules,
     };
@@ -119,9 +114,10 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
             groups: &groups,
         },
         competitors: &competitors,
+        command: args.command(&official, competition.is_some()),
+        competition,
         official,
         tries: as_pair(&tries),
-        command: args.command(&official),
     };
     output::save(&args.output, page.to_markdown().as_bytes(), existing)?;
     tell!("wrote {}", args.output.display());
@@ -187,56 +183,6 @@ impl Args {
         robots.map(|text| Specification::parse(text)).collect()
     }
 
-    /// Puts the official mazes that are here behind the others and tells where
-    /// they are among them.
-    fn official_mazes(&self, mazes: &mut Vec<ContestMaze>) -> Result<[Option<usize>; 3], Failure> {
-        let folder = self.official_folder();
-        let mut places = [None; 3];
-        for (place, official) in places.iter_mut().zip(OFFICIAL) {
-            let is_bundled = bundled_mazes()
-                .iter()
-                .any(|maze| maze.name == official.name);
-            let spec = match (&folder, is_bundled) {
-                (_, true) => official.name.to_owned(),
-                (Some(folder), false) => folder
-                    .join(official.name)
-                    .with_extension("txt")
-                    .display()
-                    .to_string(),
-                (None, false) => continue,
-            };
-            for named in mazes::load(std::slice::from_ref(&spec), Legality::Contest)? {
-                let name = official.name.to_owned();
-                let maze = ContestMaze::new(name, named.maze, &self.setup.rules);
-                if maze.digest.hex() != official.sha256 {
-                    return Err(Failure::input(format!(
-                        "`{spec}` is not the official maze of that name: its digest is {}, not sha256:{}",
-                        maze.digest, official.sha256
-                    )));
-                }
-                *place = Some(mazes.len());
-                mazes.push(maze);
-            }
-        }
-        Ok(places)
-    }
-
-    fn official_folder(&self) -> Option<PathBuf> {
-        self.official.clone().or_else(|| {
-            let shared = PathBuf::from(env::var_os(SHARED_VARIABLE)?);
-            let folder = shared.join(SHARED_FOLDER);
-            folder.is_dir().then_some(folder)
-        })
-    }
-
-    fn groups(&self, mazes: &mut Vec<ContestMaze>) -> Vec<Group> {
-        let seeds = if self.quick { STUDY_QUICK } else { STUDY_SEEDS };
-        let families = study_families(seeds).into_iter();
-        families
-            .map(|spec| Group::append(spec, mazes, &self.setup.rules))
-            .collect()
-    }
-
     /// The random robot alone in maze 01 with many seeds, if it takes part.
     fn tries(
         &self,
@@ -250,7 +196,7 @@ impl Args {
         let Some(random) = random else {
             return Ok(None);
         };
-        let count = if self.quick { TRIES_QUICK } else { TRIES };
+        let count = if self.mazes.quick { TRIES_QUICK } else { TRIES };
         let maze_01 = contest
             .mazes
             .iter()
@@ -264,7 +210,7 @@ impl Args {
     }
 
     /// The command line that makes the page again, without paths of this machine.
-    fn command(&self, official: &[Option<usize>; 3]) -> String {
+    fn command(&self, official: &[Option<usize>; 3], has_competition: bool) -> String {
         let mut words = vec!["wasmouse study".to_owned()];
         words.extend(self.robots.iter().map(|robot| {
             let path = Path::new(robot);
@@ -274,7 +220,10 @@ impl Args {
         if official.iter().all(Option::is_some) {
             words.push("--official FOLDER".to_owned());
         }
-        if self.quick {
+        if has_competition {
+            words.push("--competition FOLDER".to_owned());
+        }
+        if self.mazes.quick {
             words.push("--quick".to_owned());
         }
         let rules = &self.setup.rules;
