@@ -10,7 +10,9 @@ use wasmouse::contest::{Contest, ContestMaze, Entrant, STUDY_SEEDS, study_famili
 use wasmouse::maze::format;
 use wasmouse::maze::{self, Maze};
 use wasmouse::robot::bundled::{BundledRobot, bundled};
-use wasmouse::robot::{Digest, Game, Host, Outcome, Recorder, Verdict};
+use wasmouse::robot::{
+    Digest, Game, Host, Isolation, Outcome, Player, Recorder, Referee, Trust, Verdict,
+};
 use wasmouse::sim::{Ruleset, Simulation, Trace};
 use wasmouse_sdk::testing::{self, PlayOptions, Played};
 
@@ -126,30 +128,29 @@ fn settings(robot: &BundledRobot) -> Vec<(u32, &'static str)> {
 #[test]
 fn robots_finish_a_sample_of_legal_mazes() {
     let first = *STUDY_SEEDS.start();
-    let host = host();
-    let fuel = check_finished(&host, entrants(&host), first..=first);
-    let mut quick = entrants(&host);
+    let referee = referee();
+    let fuel = check_finished(&referee, entrants(&referee), first..=first);
+    let mut quick = entrants(&referee);
     quick.retain(|entrant| fuel[&entrant.name] <= SLOW_FUEL);
-    check_finished(&host, quick, first + 1..=first + 19);
+    check_finished(&referee, quick, first + 1..=first + 19);
 }
 
 #[test]
 #[ignore = "plays 2,000 mazes with every robot, which takes as long as `wasmouse study`"]
 fn robots_finish_all_mazes_of_the_study() {
-    let host = host();
-    check_finished(&host, entrants(&host), STUDY_SEEDS);
+    let referee = referee();
+    check_finished(&referee, entrants(&referee), STUDY_SEEDS);
 }
 
 /// Threads of the contests in these tests.
 const THREADS: u32 = 2;
 
-fn host() -> Host {
-    let limits = Ruleset::default().limits;
-    Host::new(limits, THREADS, None).expect("address space for two matches")
+fn referee() -> Referee {
+    Referee::new(Ruleset::default(), THREADS, None, Isolation::None)
 }
 
 /// The bundled robots in all settings in which they have to finish.
-fn entrants(host: &Host) -> Vec<Entrant> {
+fn entrants(referee: &Referee) -> Vec<Entrant> {
     let may_fail = |robot: &str, setting: &str| {
         let is_it = |&(name, only): &(&str, Option<&str>)| {
             name == robot && only.is_none_or(|only| only == setting)
@@ -158,7 +159,7 @@ fn entrants(host: &Host) -> Vec<Entrant> {
     };
     let mut entrants = Vec::new();
     for robot in bundled() {
-        let admitted = Arc::new(host.admit(robot.component).expect("an admitted robot"));
+        let admitted = admit(referee, robot.component);
         for (setting, name) in settings(robot) {
             if !may_fail(robot.name, name) {
                 entrants.push(Entrant {
@@ -173,10 +174,18 @@ fn entrants(host: &Host) -> Vec<Entrant> {
     entrants
 }
 
+fn admit(referee: &Referee, component: &[u8]) -> Arc<Player> {
+    let admission = referee.admit(component, Trust::Trusted);
+    match admission.expect("address space for two matches") {
+        Ok(player) => Arc::new(player),
+        Err(refusal) => panic!("refused: {refusal}"),
+    }
+}
+
 /// Plays mazes of every family and size, requires that all matches are finished,
 /// and returns the fuel of the most expensive match of each entrant.
 fn check_finished(
-    host: &Host,
+    referee: &Referee,
     entrants: Vec<Entrant>,
     seeds: RangeInclusive<u64>,
 ) -> BTreeMap<String, u64> {
@@ -190,7 +199,7 @@ fn check_finished(
         seeds: vec![0],
         rules,
     };
-    let played = contest.run(host, THREADS as usize, &AtomicBool::new(false), &|| ());
+    let played = contest.run(referee, THREADS as usize, &AtomicBool::new(false), &|| ());
     let results = played.expect("there are threads").results;
     assert_eq!(results.len(), contest.matches());
     let mut fuel = BTreeMap::new();

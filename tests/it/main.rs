@@ -12,6 +12,8 @@ mod cache;
 mod champion;
 /// What commands print, and how they fail.
 mod cli;
+/// What workers cannot do, tried from inside.
+mod confinement;
 /// The rules: recorded games and games written by hand.
 mod conformance;
 /// The same bytes from the same contest.
@@ -52,3 +54,5 @@ mod study;
 mod verdicts;
 /// The hash of the WIT beside its history.
 mod wit;
+/// Robots in worker processes.
+mod workers;

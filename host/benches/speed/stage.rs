@@ -4,7 +4,9 @@ use wasmouse::maze::generate::GenSpec;
 use wasmouse::maze::{Maze, bundled, format};
 use wasmouse::robot::bundled::find;
 use wasmouse::robot::componentize::componentize;
-use wasmouse::robot::{Game, Host, Outcome, Recorder, Robot};
+use wasmouse::robot::{
+    Executable, Game, Host, Isolation, Outcome, PATIENCE, Recorder, Referee, Robot, Workers,
+};
 use wasmouse::sim::{Limits, Ruleset};
 
 /// The smallest robot that drives: one cell ahead, or a turn to the right at a wall.
@@ -24,6 +26,22 @@ const DRIVER: &str = r#"(module
 /// A host for that many matches at the same time, without a cache.
 pub fn host(matches: u32) -> Host {
     Host::new(Limits::default(), matches, None).expect("address space for a few matches")
+}
+
+/// A referee for that many matches at the same time, without a cache, whose workers are
+/// the binary that cargo built beside the benchmark.
+pub fn referee(matches: u32) -> Referee {
+    let workers = Workers {
+        executable: Executable::at(env!("CARGO_BIN_EXE_wasmouse")),
+        patience: PATIENCE,
+        require_sandbox: false,
+    };
+    Referee::new(
+        Ruleset::default(),
+        matches,
+        None,
+        Isolation::Workers(workers),
+    )
 }
 
 /// The component of the smallest robot.

@@ -3,15 +3,16 @@
 //! Not criterion: a target is a ratio of two things, and those are timed in turns.
 //! A missed target is no failure, because a busy machine misses them too.
 
-use std::env;
 use std::hint::black_box;
 use std::time::Duration;
+use std::{env, fs};
 
 use wasmouse::maze::Maze;
-use wasmouse::robot::{Host, Recorder, Robot, bundled};
+use wasmouse::robot::{Host, Recorder, Robot, Trust, bundled};
 use wasmouse::sim::{Ruleset, Trace};
 
 use super::boundary::{Bare, Drive};
+use super::contest::Stage;
 use super::pairs::{alone, side_by_side};
 use super::{native, process, stage};
 
@@ -38,6 +39,7 @@ pub fn print() {
     first_answer();
     matches();
     whole_process();
+    isolation();
     memory();
 }
 
@@ -134,6 +136,38 @@ fn whole_process() {
     time_row(name, Duration::from_millis(60), time);
 }
 
+/// What it costs that robots run in confined processes.
+fn isolation() {
+    for threads in [1, 2] {
+        let mazes = "gen:tree:16:1..=200";
+        let count = u32::try_from(threads).expect("one or two");
+        let [inside, workers] = [Trust::Trusted, Trust::Stranger]
+            .map(|trust| Stage::new(&["flood", "flood"], mazes, count, trust));
+        let pair = side_by_side(|| workers.play(threads), || inside.play(threads));
+        let (there, here) = (pair.first, pair.second);
+        ratio_row(
+            &format!("400 matches in workers / here, {threads} threads"),
+            1.1,
+            pair.ratio,
+            &format!("{there:.1?} / {here:.1?}"),
+        );
+    }
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
+    let robot = folder.path().join("flood.wasm");
+    let flood = bundled::find("flood").expect("a bundled robot").component;
+    fs::write(&robot, flood).expect("a folder to write to");
+    let cache = folder.path().join("robots");
+    let pair = side_by_side(
+        || process::run_file(&robot, &cache, &[]),
+        || process::run_file(&robot, &cache, &["--trust"]),
+    );
+    time_row(
+        "`wasmouse run FILE` more than with --trust, warm cache",
+        Duration::from_millis(25),
+        pair.first.saturating_sub(pair.second),
+    );
+}
+
 /// Plays very many matches on one host. Says nothing where the system does not
 /// tell how much memory a process has.
 fn memory() {
@@ -170,7 +204,7 @@ fn memory() {
 
 /// Memory of this process that is resident, in KiB.
 fn resident_kib() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let status = fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmRSS:"))?;
     line.split_whitespace().nth(1)?.parse().ok()
 }

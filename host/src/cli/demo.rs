@@ -16,7 +16,7 @@ use crate::report::replay;
 use crate::report::table;
 use crate::report::visible;
 use crate::robot::bundled::bundled as bundled_robots;
-use crate::robot::{Host, Recorder};
+use crate::robot::{Recorder, Referee};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -44,28 +44,28 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<Exit, Failure> {
     output::check(&args.html, Existing::Replace)?;
-    let host = args.setup.host()?;
-    let contest = contest(args, &host)?;
-    let played = run::play(&contest, &host, args.setup.threads())?;
+    let referee = args.setup.referee();
+    let contest = contest(args, &referee)?;
+    let played = run::play(&contest, &referee, args.setup.threads())?;
     let results = &played.results;
     let standings = standings(&contest, results);
 
     let lines = terminal::table_lines(args.ascii);
     output::print(&table::standings(&contest, &standings, lines))?;
-    print_best_run(args, &contest, &host, results, &standings)?;
+    print_best_run(args, &contest, &referee, results, &standings)?;
     run::tell_failures(&contest, results);
     page::write(
         &args.html,
         Existing::Replace,
         &contest,
-        &host,
+        &referee,
         results,
         &standings,
     )?;
     Ok(run::exit(&contest, &played))
 }
 
-fn contest(args: &Args, host: &Host) -> Result<Contest, Failure> {
+fn contest(args: &Args, referee: &Referee) -> Result<Contest, Failure> {
     let robots: Vec<Specification> = bundled_robots()
         .iter()
         .map(|robot| Specification::parse(robot.name))
@@ -77,7 +77,7 @@ fn contest(args: &Args, host: &Host) -> Result<Contest, Failure> {
     let rules = args.setup.rules;
     let mazes = mazes::load(&names, Legality::Contest)?;
     Ok(Contest {
-        entrants: robots::load(&robots, host)?,
+        entrants: robots::load(&robots, referee)?,
         mazes: mazes
             .into_iter()
             .map(|named| ContestMaze::new(named.name, named.maze, &rules))
@@ -90,7 +90,7 @@ fn contest(args: &Args, host: &Host) -> Result<Contest, Failure> {
 fn print_best_run(
     args: &Args,
     contest: &Contest,
-    host: &Host,
+    referee: &Referee,
     results: &[MatchResult],
     standings: &[Standing],
 ) -> Result<(), Failure> {
@@ -103,7 +103,7 @@ fn print_best_run(
     let result = &results[index];
     let mut recorder = Recorder::default();
     contest
-        .replay(host, result, &mut recorder)
+        .replay(referee, result, &mut recorder)
         .map_err(Failure::host)?;
     let maze = &contest.mazes[result.maze];
     let picture = replay::ways(&maze.maze, &recorder.trace);

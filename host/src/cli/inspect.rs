@@ -6,7 +6,7 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
 use super::robots::{self, Specification};
-use super::setup::SetupArgs;
+use super::setup::{IsolationArgs, SetupArgs};
 use crate::report::inspection::InspectionReport;
 
 const EXAMPLES: &str = "\
@@ -31,14 +31,19 @@ pub struct Args {
     json: bool,
     #[command(flatten)]
     setup: SetupArgs,
+    #[command(flatten)]
+    isolation: IsolationArgs,
 }
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<Exit, Failure> {
     let specification = Specification::parse(&args.robot)?;
-    let host = args.setup.host()?;
-    let bytes = specification.read(host.limits().component_bytes_max)?;
-    let inspection = host.inspect(&bytes);
+    let referee = args.setup.referee_for_all(&args.isolation)?;
+    let bytes = specification.read(referee.rules().limits.component_bytes_max)?;
+    let inspection = referee
+        .inspect(&bytes, specification.trust())
+        .map_err(|error| robots::setup_failure(&error))?;
+    robots::tell_sandbox(&referee);
     let report = InspectionReport::new(&args.robot, &inspection);
     if args.json {
         output::print(&report.to_json())?;

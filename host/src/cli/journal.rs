@@ -3,18 +3,18 @@
 use super::failure::Failure;
 use crate::contest::{Contest, MatchResult};
 use crate::report::visible;
-use crate::robot::{Host, Level, Note, Recorder};
+use crate::robot::{Level, Note, Recorder, Referee};
 
 /// Replays every match with a journal and prints its log lines on standard error.
 ///
 /// # Errors
 ///
 /// When the host fails.
-pub fn print(contest: &Contest, host: &Host, results: &[MatchResult]) -> Result<(), Failure> {
+pub fn print(contest: &Contest, referee: &Referee, results: &[MatchResult]) -> Result<(), Failure> {
     let mut recorder = Recorder::default();
     for result in results.iter().filter(|result| result.journal != (0, 0)) {
         contest
-            .replay(host, result, &mut recorder)
+            .replay(referee, result, &mut recorder)
             .map_err(Failure::host)?;
         let robot = visible(&contest.entrants[result.entrant].name);
         let maze = visible(&contest.mazes[result.maze].name);

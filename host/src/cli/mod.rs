@@ -35,6 +35,7 @@ mod study;
 mod terminal;
 mod toolchain;
 mod watch;
+mod worker;
 
 use std::process::ExitCode;
 
@@ -64,6 +65,9 @@ enum Command {
     Build(build::Args),
     Completions(completions::Args),
     Man(man::Args),
+    /// Not for people: a worker process of a contest.
+    #[command(hide = true)]
+    Worker(worker::Args),
 }
 
 /// Runs the command line of this process and returns its exit code.
@@ -80,6 +84,7 @@ pub fn main() -> ExitCode {
         Command::Build(args) => build::run(&args),
         Command::Completions(args) => completions::run(&args),
         Command::Man(args) => man::run(&args),
+        Command::Worker(args) => worker::run(&args),
     };
     match outcome {
         Ok(exit) => exit.into(),

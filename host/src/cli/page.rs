@@ -7,7 +7,7 @@ use super::output::{self, Existing};
 use crate::contest::{Contest, MatchResult, Mean, Standing};
 use crate::report::page::{Portrait, page};
 use crate::report::replay;
-use crate::robot::{Host, Recorder, Verdict};
+use crate::robot::{Recorder, Referee, Verdict};
 
 /// More pictures than this make a page slow to load.
 const PORTRAITS_MAX: usize = 60;
@@ -21,7 +21,7 @@ pub fn write(
     path: &Path,
     existing: Existing,
     contest: &Contest,
-    host: &Host,
+    referee: &Referee,
     results: &[MatchResult],
     standings: &[Standing],
 ) -> Result<(), Failure> {
@@ -31,7 +31,7 @@ pub fn write(
         let Some(result) = best_match(contest, results, line.entrant) else {
             continue;
         };
-        let replayed = contest.replay(host, &results[result], &mut recorder);
+        let replayed = contest.replay(referee, &results[result], &mut recorder);
         if replayed.map_err(Failure::host)?.is_some() {
             let maze = &contest.mazes[results[result].maze];
             let mut picture = replay::ways(&maze.maze, &recorder.trace);

@@ -13,7 +13,7 @@ use super::failure::Failure;
 use crate::contest::Entrant;
 use crate::report::visible;
 use crate::robot::bundled::{BundledRobot, Setting, bundled, find};
-use crate::robot::{CacheUse, Digest, Host};
+use crate::robot::{CacheUse, Digest, HostError, Player, Referee, Refusal, Trust};
 
 /// What a user may write for a robot, for the long help of commands.
 pub const SPECIFICATION_HELP: &str = "\
@@ -42,6 +42,14 @@ impl Specification {
     pub fn is_meant_by(text: &str) -> bool {
         let names_robot = |name: &str| find(name).is_some() || has_wasm_extension(name);
         names_robot(text) || split(text).is_some_and(|(name, _)| names_robot(name))
+    }
+
+    /// Whose code it is: bundled robots are the host's own.
+    pub const fn trust(&self) -> Trust {
+        match self.source {
+            Source::Bundled(_) => Trust::Trusted,
+            Source::File(_) => Trust::Stranger,
+        }
     }
 
     /// The robot that this text means: a bundled name, or else a file whatever
@@ -210,7 +218,7 @@ fn read_file(path: &Path, bytes_max: u64) -> Result<Vec<u8>, Failure> {
 ///
 /// When a file cannot be read, or a robot is given twice; a robot that is refused
 /// is an entrant all the same.
-pub fn load(specifications: &[Specification], host: &Host) -> Result<Vec<Entrant>, Failure> {
+pub fn load(specifications: &[Specification], referee: &Referee) -> Result<Vec<Entrant>, Failure> {
     let mut labels: Vec<String> = specifications.iter().map(Specification::label).collect();
     labels.sort();
     if let Some(twice) = labels.windows(2).find(|pair| pair[0] == pair[1]) {
@@ -219,11 +227,12 @@ pub fn load(specifications: &[Specification], host: &Host) -> Result<Vec<Entrant
     }
     let mut entrants = Vec::with_capacity(specifications.len());
     for specification in specifications {
-        let bytes = specification.read(host.limits().component_bytes_max)?;
+        let bytes = specification.read(referee.rules().limits.component_bytes_max)?;
         let name = unique_name(specification, specifications);
-        let admission = host.admit(&bytes).map(Arc::new).map_err(Arc::new);
-        if let Ok(robot) = &admission
-            && let CacheUse::Failed(reason) = robot.cache_use()
+        let admission = admit(referee, &bytes, specification)?;
+        let admission = admission.map(Arc::new).map_err(Arc::new);
+        if let Ok(player) = &admission
+            && let CacheUse::Failed(reason) = player.cache_use()
         {
             tell!("warning: {reason}; robots are compiled anew each time");
         }
@@ -235,6 +244,51 @@ pub fn load(specifications: &[Specification], host: &Host) -> Result<Vec<Entrant
         });
     }
     Ok(entrants)
+}
+
+/// Has the referee look at a robot.
+fn admit(
+    referee: &Referee,
+    bytes: &[u8],
+    specification: &Specification,
+) -> Result<Result<Player, Refusal>, Failure> {
+    let had_workers = referee.sandbox().is_some();
+    let admission = referee
+        .admit(bytes, specification.trust())
+        .map_err(|error| setup_failure(&error))?;
+    if !had_workers {
+        tell_sandbox(referee);
+    }
+    Ok(admission)
+}
+
+/// Says once where workers are confined by less than everything.
+pub fn tell_sandbox(referee: &Referee) {
+    if let Some(sandbox) = referee.sandbox()
+        && !sandbox.is_complete()
+    {
+        let lacks = match (sandbox.landlock, sandbox.seccomp) {
+            (false, false) => "landlock and seccomp",
+            (false, true) => "landlock",
+            (true, _) => "seccomp",
+        };
+        tell!(
+            "warning: this system has no {lacks}, so strangers' robots are kept apart by \
+             processes with fewer restrictions; --require-sandbox refuses to go on"
+        );
+    }
+}
+
+/// A host that cannot begin.
+pub fn setup_failure(error: &HostError) -> Failure {
+    let hint = match error {
+        HostError::Unconfined(_) => {
+            "use Linux 5.13 or later with landlock and seccomp, or leave --require-sandbox out"
+        }
+        HostError::Engine(_) | HostError::Thread(_) => "try fewer threads with --jobs",
+        _ => "--trust runs robots without worker processes",
+    };
+    Failure::host(error).hint(hint)
 }
 
 fn unique_name(specification: &Specification, all: &[Specification]) -> String {

@@ -11,7 +11,7 @@ use super::failure::Failure;
 use super::mazes::{self, Legality};
 use super::output::{self, Existing};
 use super::robots::{self, Specification};
-use super::setup::SetupArgs;
+use super::setup::{IsolationArgs, SetupArgs};
 use super::{interrupt, journal, page, terminal, watch};
 use crate::contest::{Contest, ContestMaze, Entrant, MatchResult, Played, standings};
 use crate::maze::bundled as bundled_mazes;
@@ -19,7 +19,7 @@ use crate::report::result::ContestReport;
 use crate::report::table;
 use crate::report::visible;
 use crate::robot::bundled::bundled as bundled_robots;
-use crate::robot::{Host, Verdict};
+use crate::robot::{Referee, Verdict};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -89,6 +89,8 @@ pub struct Args {
     ascii: bool,
     #[command(flatten)]
     setup: SetupArgs,
+    #[command(flatten)]
+    isolation: IsolationArgs,
 }
 
 /// Runs the command.
@@ -99,9 +101,9 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     }
     let legality = Legality::from_flag(args.lenient);
     let mazes = mazes::load(&maze_specs, legality)?;
-    let host = args.setup.host()?;
+    let referee = args.setup.referee_for_all(&args.isolation)?;
     let contest = Contest {
-        entrants: robots::load(&specifications, &host)?,
+        entrants: robots::load(&specifications, &referee)?,
         mazes: mazes
             .into_iter()
             .map(|named| ContestMaze::new(named.name, named.maze, &args.setup.rules))
@@ -109,20 +111,20 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         seeds: args.seeds()?,
         rules: args.setup.rules,
     };
-    let played = play(&contest, &host, args.setup.threads())?;
+    let played = play(&contest, &referee, args.setup.threads())?;
     if args.watch && !played.results.is_empty() {
         let delay = Duration::from_millis(args.delay);
-        watch::watch(&contest, &host, &played.results, delay, args.ascii)?;
+        watch::watch(&contest, &referee, &played.results, delay, args.ascii)?;
     }
     if args.log {
-        journal::print(&contest, &host, &played.results)?;
+        journal::print(&contest, &referee, &played.results)?;
     }
-    args.report(&contest, &host, &played)?;
+    args.report(&contest, &referee, &played)?;
     Ok(exit(&contest, &played))
 }
 
 /// Plays a contest with a progress bar on a terminal; Ctrl-C ends it early.
-pub fn play(contest: &Contest, host: &Host, threads: usize) -> Result<Played, Failure> {
+pub fn play(contest: &Contest, referee: &Referee, threads: usize) -> Result<Played, Failure> {
     let cancelled: &AtomicBool = interrupt::listen()?;
     let total = u64::try_from(contest.matches()).unwrap_or(u64::MAX);
     let bar = ProgressBar::new(total).with_style(
@@ -130,7 +132,7 @@ pub fn play(contest: &Contest, host: &Host, threads: usize) -> Result<Played, Fa
             .expect("a constant template"),
     );
     let played = contest
-        .run(host, threads, cancelled, &|| bar.inc(1))
+        .run(referee, threads, cancelled, &|| bar.inc(1))
         .map_err(Failure::host);
     bar.finish_and_clear();
     played
@@ -241,7 +243,7 @@ impl Args {
         Ok((self.seed..=last).collect())
     }
 
-    fn report(&self, contest: &Contest, host: &Host, played: &Played) -> Result<(), Failure> {
+    fn report(&self, contest: &Contest, referee: &Referee, played: &Played) -> Result<(), Failure> {
         let results = &played.results;
         let standings = standings(contest, results);
         if self.json {
@@ -259,7 +261,7 @@ impl Args {
         }
         tell_failures(contest, results);
         if let Some(path) = &self.html {
-            page::write(path, self.existing(), contest, host, results, &standings)?;
+            page::write(path, self.existing(), contest, referee, results, &standings)?;
         }
         Ok(())
     }

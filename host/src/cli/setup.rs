@@ -7,7 +7,7 @@ use std::thread;
 use etcetera::BaseStrategy as _;
 
 use super::failure::Failure;
-use crate::robot::{Cache, Host};
+use crate::robot::{Cache, Executable, Isolation, PATIENCE, Referee, Workers};
 use crate::sim::Ruleset;
 
 /// How robots are run.
@@ -29,6 +29,18 @@ pub struct SetupArgs {
     no_cache: bool,
 }
 
+/// Where robots from files run.
+#[derive(clap::Args, Debug)]
+pub struct IsolationArgs {
+    /// Run robots from files inside this process, as bundled ones do: for robots of
+    /// your own. Without it they run in confined worker processes
+    #[arg(long)]
+    trust: bool,
+    /// Fail where the operating system cannot confine the worker processes completely
+    #[arg(long, conflicts_with = "trust")]
+    require_sandbox: bool,
+}
+
 fn rules(name: &str) -> Result<Ruleset, String> {
     Ruleset::by_name(name).ok_or_else(|| {
         let names = Ruleset::all().map(|rules| rules.name);
@@ -43,16 +55,25 @@ impl SetupArgs {
         self.jobs.unwrap_or_else(cores).get()
     }
 
-    /// A host with a cache, or without one when that cannot be used: robots are
-    /// then compiled each time, which is slower and otherwise the same.
+    /// A referee for bundled robots, which run in this process, with a cache, or
+    /// without one when that cannot be used: robots are then compiled each time, which
+    /// is slower and otherwise the same.
+    pub fn referee(&self) -> Referee {
+        self.referee_with(Isolation::None)
+    }
+
+    /// A referee for robots of all kinds.
     ///
     /// # Errors
     ///
-    /// When the machine cannot run robots at all.
-    pub fn host(&self) -> Result<Host, Failure> {
+    /// When the program cannot find itself, to start workers from.
+    pub fn referee_for_all(&self, isolation: &IsolationArgs) -> Result<Referee, Failure> {
+        Ok(self.referee_with(isolation.isolation()?))
+    }
+
+    fn referee_with(&self, isolation: Isolation) -> Referee {
         let matches = u32::try_from(self.threads()).unwrap_or(u32::MAX);
-        Host::new(self.rules.limits, matches, self.open_cache())
-            .map_err(|error| Failure::host(error).hint("try fewer threads with --jobs"))
+        Referee::new(self.rules, matches, self.open_cache(), isolation)
     }
 
     fn open_cache(&self) -> Option<Cache> {
@@ -74,5 +95,21 @@ impl SetupArgs {
                 None
             }
         }
+    }
+}
+
+impl IsolationArgs {
+    fn isolation(&self) -> Result<Isolation, Failure> {
+        if self.trust {
+            return Ok(Isolation::None);
+        }
+        let executable = Executable::current().map_err(|error| {
+            Failure::host(format!("failed to find the program itself: {error}"))
+        })?;
+        Ok(Isolation::Workers(Workers {
+            executable,
+            patience: PATIENCE,
+            require_sandbox: self.require_sandbox,
+        }))
     }
 }

@@ -15,7 +15,7 @@ use super::failure::Failure;
 use super::terminal::picture_style;
 use crate::contest::{Contest, MatchResult};
 use crate::report::{replay, visible};
-use crate::robot::{Host, Level, Note, Recorder, Verdict};
+use crate::robot::{Level, Note, Recorder, Referee, Verdict};
 use crate::sim::{Action, Event as SimEvent};
 
 /// Shows the only match of a contest until it is over or the viewer leaves.
@@ -25,7 +25,7 @@ use crate::sim::{Action, Event as SimEvent};
 /// When there is not exactly one match, or standard output is no terminal.
 pub fn watch(
     contest: &Contest,
-    host: &Host,
+    referee: &Referee,
     results: &[MatchResult],
     delay: Duration,
     ascii: bool,
@@ -44,7 +44,7 @@ pub fn watch(
     }
     let mut recorder = Recorder::default();
     contest
-        .replay(host, result, &mut recorder)
+        .replay(referee, result, &mut recorder)
         .map_err(Failure::host)?;
     let show = Show {
         contest,

@@ -1,5 +1,6 @@
 //! [`Contest`]: what is played, and playing it on many threads.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -7,12 +8,17 @@ use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 
 use crate::maze::Maze;
 use crate::maze::omniscient_floor;
-use crate::robot::{Digest, Game, Host, HostError, Outcome, Recorder, Refusal, Robot};
+use crate::robot::{
+    Digest, Game, HostError, Outcome, Player, Record, Recorder, Referee, Refusal, STACK_BYTES,
+};
 use crate::sim::{Ruleset, Score};
 
-/// Stack of the threads that run robots, in bytes: wasm gets its own limit of
-/// it, and wasmtime needs room for itself beyond that.
-const STACK_BYTES: usize = 8 << 20;
+/// Matches that a thread plays in a row, at most: what a worker process gets in one
+/// message.
+const ROW_MAX: usize = 64;
+
+/// Rows for each thread, at least, so that all end at about the same time.
+const ROWS_PER_THREAD: usize = 8;
 
 /// A robot that takes part, or was meant to.
 #[derive(Clone)]
@@ -24,7 +30,7 @@ pub struct Entrant {
     /// The variant of the robot.
     pub setting: u32,
     /// The admitted robot, or why it plays no match.
-    pub admission: Result<Arc<Robot>, Arc<Refusal>>,
+    pub admission: Result<Arc<Player>, Arc<Refusal>>,
 }
 
 /// A maze with its name and what a robot that knows it would score.
@@ -149,13 +155,14 @@ impl Contest {
     /// When the threads cannot be started.
     pub fn run(
         &self,
-        host: &Host,
+        referee: &Referee,
         threads: usize,
         cancelled: &AtomicBool,
         progress: &Progress<'_>,
     ) -> Result<Played, ContestError> {
+        let threads = threads.max(1);
         let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads.max(1))
+            .num_threads(threads)
             .stack_size(STACK_BYTES)
             .thread_name(|index| format!("matches-{index}"))
             .build()
@@ -163,46 +170,28 @@ impl Contest {
                 threads,
                 reason: error.to_string(),
             })?;
-        let plan = self.plan();
-        let played: Vec<Result<MatchResult, FailedMatch>> = pool.install(|| {
-            plan.into_par_iter()
-                .map_init(Recorder::default, |recorder, planned| {
+        let rows = self.rows(threads);
+        let played: Vec<Vec<Result<MatchResult, FailedMatch>>> = pool.install(|| {
+            rows.into_par_iter()
+                .map_init(Recorder::default, |recorder, row| {
                     if cancelled.load(Ordering::Relaxed) {
-                        return None;
+                        return Vec::new();
                     }
-                    let played = self.play_twice(host, &planned, recorder);
-                    progress();
-                    Some(played)
+                    self.play(referee, &row, recorder, &mut || {
+                        progress();
+                        !cancelled.load(Ordering::Relaxed)
+                    })
                 })
-                .flatten()
                 .collect()
         });
         let mut all = Played::default();
-        for match_played in played {
+        for match_played in played.into_iter().flatten() {
             match match_played {
                 Ok(result) => all.results.push(result),
                 Err(failed) => all.failed.push(failed),
             }
         }
         Ok(all)
-    }
-
-    /// Plays a match, and once more when the host fails: most failures, such as
-    /// a machine that stood still, do not repeat.
-    fn play_twice(
-        &self,
-        host: &Host,
-        planned: &Planned<'_>,
-        recorder: &mut Recorder,
-    ) -> Result<MatchResult, FailedMatch> {
-        self.play(host, planned, recorder)
-            .or_else(|_| self.play(host, planned, recorder))
-            .map_err(|error| FailedMatch {
-                entrant: planned.entrant,
-                maze: planned.maze,
-                seed: planned.seed,
-                error,
-            })
     }
 
     /// Plays the match of a result again and leaves its trace and journal in
@@ -215,18 +204,18 @@ impl Contest {
     /// When the host fails.
     pub fn replay(
         &self,
-        host: &Host,
+        referee: &Referee,
         result: &MatchResult,
         recorder: &mut Recorder,
     ) -> Result<Option<Outcome>, HostError> {
-        let Ok(robot) = &self.entrants[result.entrant].admission else {
+        let Ok(player) = &self.entrants[result.entrant].admission else {
             return Ok(None);
         };
-        let game = self.game(result.entrant, result.maze, result.seed);
-        host.play(robot, &game, recorder).map(Some)
+        let game = self.game(result.entrant, (result.maze, result.seed));
+        referee.record(player, &game, recorder).map(Some)
     }
 
-    fn game(&self, entrant: usize, maze: usize, seed: u64) -> Game<'_> {
+    fn game(&self, entrant: usize, (maze, seed): (usize, u64)) -> Game<'_> {
         Game {
             maze: &self.mazes[maze].maze,
             rules: &self.rules,
@@ -235,54 +224,77 @@ impl Contest {
         }
     }
 
-    fn plan(&self) -> Vec<Planned<'_>> {
-        let mut plan = Vec::with_capacity(self.matches());
+    /// All matches in order, cut into rows of one entrant each.
+    fn rows(&self, threads: usize) -> Vec<Row<'_>> {
+        let length = self.matches() / (threads * ROWS_PER_THREAD);
+        let length = length.clamp(1, ROW_MAX);
+        let mut rows = Vec::new();
         for (entrant, Entrant { admission, .. }) in self.entrants.iter().enumerate() {
-            let Ok(robot) = admission else { continue };
-            for maze in 0..self.mazes.len() {
-                for &seed in &self.seeds {
-                    plan.push(Planned {
-                        robot,
-                        entrant,
-                        maze,
-                        seed,
-                    });
-                }
-            }
+            let Ok(player) = admission else { continue };
+            let mazes = 0..self.mazes.len();
+            let places = mazes.flat_map(|maze| self.seeds.iter().map(move |&seed| (maze, seed)));
+            let places: Vec<Place> = places.collect();
+            rows.extend(places.chunks(length).map(|places| Row {
+                player,
+                entrant,
+                places: places.to_vec(),
+            }));
         }
-        plan
+        rows
     }
 
     fn play(
         &self,
-        host: &Host,
-        planned: &Planned<'_>,
+        referee: &Referee,
+        row: &Row<'_>,
         recorder: &mut Recorder,
-    ) -> Result<MatchResult, HostError> {
-        let &Planned {
-            robot,
-            entrant,
-            maze,
-            seed,
-        } = planned;
-        let game = self.game(entrant, maze, seed);
-        let outcome = host.play(robot, &game, recorder)?;
-        let kept = u64::try_from(recorder.journal.len()).unwrap_or(u64::MAX);
-        Ok(MatchResult {
-            entrant,
-            maze,
-            seed,
-            outcome,
-            trace: Digest::of(&recorder.trace.identity_bytes()),
-            journal: (kept, recorder.journal.dropped()),
-        })
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Vec<Result<MatchResult, FailedMatch>> {
+        let entrant = row.entrant;
+        let places = row.places.iter();
+        let games: Vec<Game<'_>> = places.map(|&place| self.game(entrant, place)).collect();
+        let mut places = row.places.iter();
+        let mut played = Vec::with_capacity(games.len());
+        let _ = referee.play(row.player, &games, recorder, &mut |record| {
+            let &(maze, seed) = places.next().expect("a record for each game");
+            played.push(match record {
+                Ok(record) => Ok(MatchResult::new(entrant, (maze, seed), record)),
+                Err(error) => Err(FailedMatch {
+                    entrant,
+                    maze,
+                    seed,
+                    error,
+                }),
+            });
+            if goes_on() {
+                ControlFlow::Continue(())
+            } else {
+                ControlFlow::Break(())
+            }
+        });
+        played
     }
 }
 
-/// One match to be played.
-struct Planned<'a> {
-    robot: &'a Robot,
+impl MatchResult {
+    fn new(entrant: usize, (maze, seed): Place, record: Record) -> Self {
+        Self {
+            entrant,
+            maze,
+            seed,
+            outcome: record.outcome,
+            trace: record.trace,
+            journal: record.journal,
+        }
+    }
+}
+
+/// A maze, by its index, and a seed.
+type Place = (usize, u64);
+
+/// Matches of one entrant to be played one after the other.
+struct Row<'a> {
+    player: &'a Player,
     entrant: usize,
-    maze: usize,
-    seed: u64,
+    places: Vec<Place>,
 }

@@ -3,6 +3,7 @@
 //! Pure values without reference to a particular maze; whether a cell lies in
 //! a maze is a question for [`Walls`](super::Walls).
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// A cell, counted from the bottom left corner of the maze.
@@ -16,7 +17,7 @@ use std::fmt;
 /// assert_eq!(Cell::new(0, 0).step(Heading::Up), Some(Cell::new(0, 1)));
 /// assert_eq!(Cell::new(0, 0).step(Heading::Left), None);
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Cell {
     /// Column, counted from the left, in cells.
     pub x: u8,
@@ -53,7 +54,7 @@ impl fmt::Display for Cell {
 /// A direction in the maze, independent of any robot.
 ///
 /// The numbers are the order of the bits in the Udacity format, clockwise from up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum Heading {
     /// Towards larger `y`; every run starts with this heading.
@@ -113,7 +114,7 @@ impl fmt::Display for Heading {
 }
 
 /// A rotation on the spot, relative to the robot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Turn {
     /// A quarter turn counterclockwise (-90 degrees).
     Left,

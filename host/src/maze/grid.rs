@@ -277,6 +277,38 @@ impl Maze {
         bytes.extend_from_slice(&self.walls.open);
         bytes
     }
+
+    /// The maze that these bytes identify; `None` when they identify none.
+    ///
+    /// ```
+    /// use wasmouse::maze::{Maze, Walls};
+    /// let maze = Maze::contest(Walls::open(12)).expect("room for start and goal");
+    /// assert_eq!(Maze::from_identity_bytes(&maze.identity_bytes()), Some(maze));
+    /// assert_eq!(Maze::from_identity_bytes(&[12, 0]), None);
+    /// ```
+    pub fn from_identity_bytes(bytes: &[u8]) -> Option<Self> {
+        let (&[dimension, start_x, start_y, goal_x, goal_y, width, height], values) =
+            bytes.split_first_chunk()?;
+        let cells = usize::from(dimension) * usize::from(dimension);
+        if !DIMENSIONS.contains(&dimension) || values.len() != cells {
+            return None;
+        }
+        let mut walls = Walls::closed(dimension);
+        for (cell, value) in walls.cells().zip(values) {
+            for heading in Heading::ALL {
+                if value & heading.bit() != 0 {
+                    walls.neighbor(cell, heading)?;
+                    walls.set(cell, heading, true);
+                }
+            }
+        }
+        // A side that is open for one of its cells alone is no maze's.
+        if *walls.open != *values {
+            return None;
+        }
+        let goal = Area::new(Cell::new(goal_x, goal_y), width, height)?;
+        Self::new(walls, Cell::new(start_x, start_y), goal).ok()
+    }
 }
 
 fn open_cells(walls: &Walls, from: Cell, heading: Heading) -> u8 {

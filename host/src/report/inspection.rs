@@ -39,19 +39,19 @@ pub struct InspectionReport<'a> {
     tables: Option<u32>,
     table_elements: Option<u64>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    refusal: Option<WireRefusal>,
+    refusal: Option<WireRefusal<'a>>,
     wit: Option<&'a str>,
 }
 
 #[derive(Serialize)]
-struct WireRefusal {
-    kind: &'static str,
+struct WireRefusal<'a> {
+    kind: &'a str,
     reason: String,
-    hint: &'static str,
+    hint: &'a str,
 }
 
-impl WireRefusal {
-    fn new(refusal: &Refusal) -> Self {
+impl<'a> WireRefusal<'a> {
+    fn new(refusal: &'a Refusal) -> Self {
         Self {
             kind: refusal.name(),
             reason: refusal.to_string(),

@@ -122,14 +122,14 @@ struct WireRobot<'a> {
     sha256: String,
     setting: u32,
     #[serde(skip_serializing_if = "Option::is_none")]
-    refusal: Option<WireRefusal>,
+    refusal: Option<WireRefusal<'a>>,
 }
 
 #[derive(Serialize)]
-struct WireRefusal {
-    kind: &'static str,
+struct WireRefusal<'a> {
+    kind: &'a str,
     reason: String,
-    hint: &'static str,
+    hint: &'a str,
 }
 
 impl<'a> WireRobot<'a> {

@@ -16,6 +16,7 @@ use sha2::{Digest as _, Sha256};
 use wasmtime::Engine;
 use wasmtime::component::Component;
 
+use super::code::{Code, Destination};
 use super::{Digest, HostError};
 
 /// A folder of compiled robots.
@@ -60,6 +61,34 @@ impl Cache {
             let _ = fs::remove_file(&path);
         }
         loaded
+    }
+
+    /// The compiled code of that component, unread and unchecked, when there is some.
+    pub(super) fn open_code(&self, engine: &Engine, component: &Digest) -> Option<Code> {
+        Code::open(&self.entry(engine, component))
+    }
+
+    /// A place for the compiled code of that component.
+    pub(super) fn destination(
+        &self,
+        engine: &Engine,
+        component: &Digest,
+    ) -> io::Result<Destination> {
+        Destination::kept(&self.folder, self.entry(engine, component))
+    }
+
+    /// Removes what is kept of that component: it is damaged.
+    pub(super) fn forget(&self, engine: &Engine, component: &Digest) {
+        // If that fails the next one replaces it.
+        let _ = fs::remove_file(self.entry(engine, component));
+    }
+
+    /// The error of a cache that cannot keep something.
+    pub(super) fn failure(&self, reason: String) -> HostError {
+        HostError::Cache {
+            path: self.folder.clone(),
+            reason,
+        }
     }
 
     /// Keeps a compiled component for the next time.

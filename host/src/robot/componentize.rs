@@ -11,6 +11,7 @@
 //! need each other), which would end the host. There is one world a robot can
 //! have, and every module is wrapped as that.
 
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
 use thiserror::Error;
@@ -50,7 +51,7 @@ const ENCODING_SECTION: &str = "wit-component-encoding";
 /// assert_eq!(BinaryKind::of(b"\0asm\x0d\0\x01\0"), BinaryKind::Component);
 /// assert_eq!(BinaryKind::of(b"(module)"), BinaryKind::Other);
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum BinaryKind {
     /// A component: what a match takes.
     Component,

@@ -1,5 +1,6 @@
 //! [`Digest`]: the name of a component, maze, ruleset or trace by its content.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 use sha2::{Digest as _, Sha256};
@@ -11,13 +12,18 @@ use sha2::{Digest as _, Sha256};
 /// let digest = Digest::of(b"");
 /// assert!(digest.to_string().starts_with("sha256:e3b0c44298fc1c14"));
 /// ```
-#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Digest([u8; 32]);
 
 impl Digest {
     /// The digest of these bytes.
     pub fn of(bytes: &[u8]) -> Self {
         Self(Sha256::digest(bytes).into())
+    }
+
+    /// The digest with these bytes.
+    pub const fn from_bytes(bytes: [u8; 32]) -> Self {
+        Self(bytes)
     }
 
     /// The 32 bytes.

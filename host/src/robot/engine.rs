@@ -45,17 +45,31 @@ pub(super) const fn match_epochs_max() -> u64 {
 ///
 /// # Errors
 ///
-/// When the machine cannot give the address space for the pool, or the clock
-/// thread cannot be started.
+/// When the machine cannot give the address space for the pool.
 pub(super) fn new_engine(limits: &Limits, matches: u32) -> Result<Engine, HostError> {
-    let engine = Engine::new(&engine_config(limits, matches)).map_err(HostError::engine)?;
-    start_clock(&engine)?;
-    Ok(engine)
+    Engine::new(&engine_config(limits, matches)).map_err(HostError::engine)
 }
 
 /// The configuration of the engine of a host, for those who want to compare the
 /// host with wasmtime alone.
 pub fn engine_config(limits: &Limits, matches: u32) -> Config {
+    let mut config = compiler_config(limits);
+    config.allocation_strategy(InstanceAllocationStrategy::Pooling(pool(limits, matches)));
+    config
+}
+
+/// An engine that compiles and runs nothing: its code is that of [`new_engine`], but
+/// it has no pool, whose address space a process under a memory limit cannot have.
+///
+/// # Errors
+///
+/// When wasmtime does not know this machine.
+pub(super) fn new_compiler(limits: &Limits) -> Result<Engine, HostError> {
+    Engine::new(&compiler_config(limits)).map_err(HostError::engine)
+}
+
+/// Everything that decides the compiled code.
+fn compiler_config(limits: &Limits) -> Config {
     let mut config = Config::new();
 
     // What ends a match. Fuel is exact and reproducible; epochs are the safety
@@ -88,8 +102,6 @@ pub fn engine_config(limits: &Limits, matches: u32) -> Config {
     config.generate_address_map(false);
     // Only needed by native profilers and unwinders.
     config.native_unwind_info(false);
-
-    config.allocation_strategy(InstanceAllocationStrategy::Pooling(pool(limits, matches)));
     config
 }
 
@@ -134,8 +146,12 @@ fn bytes(limit: u64) -> usize {
     usize::try_from(limit).unwrap_or(usize::MAX)
 }
 
-/// Advances the epoch for as long as the engine lives.
-fn start_clock(engine: &Engine) -> Result<(), HostError> {
+/// Starts the thread that advances the epoch for as long as the engine lives.
+///
+/// # Errors
+///
+/// When the machine gives no thread.
+pub(super) fn start_clock(engine: &Engine) -> Result<(), HostError> {
     let engine = engine.weak();
     thread::Builder::new()
         .name("epoch-clock".into())

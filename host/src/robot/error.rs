@@ -3,6 +3,8 @@
 use std::io;
 use std::path::PathBuf;
 
+use super::worker::Sandbox;
+
 /// The host failed. A match that ends so has to be run again.
 #[derive(Debug, thiserror::Error)]
 pub enum HostError {
@@ -21,6 +23,20 @@ pub enum HostError {
         super::engine::MATCH_SECONDS_MAX
     )]
     Stalled,
+    /// A worker process could not do its work.
+    #[error("the worker that should {role} failed: {reason}")]
+    Worker {
+        /// `compile` or `play`.
+        role: &'static str,
+        /// How it ended, or what was wrong with what it said.
+        reason: String,
+    },
+    /// There is no room for compiled code.
+    #[error("failed to keep compiled code: {0}")]
+    Room(String),
+    /// The operating system cannot confine workers, and that is required.
+    #[error("this system cannot confine workers completely: it has no {}", missing(*.0))]
+    Unconfined(Sandbox),
     /// The cache of compiled robots could not be used.
     #[error("failed to use the cache of compiled robots at `{}`: {reason}", path.display())]
     Cache {
@@ -31,7 +47,20 @@ pub enum HostError {
     },
 }
 
+fn missing(sandbox: Sandbox) -> &'static str {
+    match (sandbox.landlock, sandbox.seccomp) {
+        (false, false) => "landlock and no seccomp",
+        (false, true) => "landlock",
+        (true, _) => "seccomp",
+    }
+}
+
 impl HostError {
+    /// A robot is played where it was not admitted.
+    pub(super) fn stranger() -> Self {
+        Self::Call("it was admitted by another referee".into())
+    }
+
     #[expect(
         clippy::needless_pass_by_value,
         reason = "used as a function in map_err"

@@ -3,6 +3,7 @@
 //! The only place that looks into errors of a call by wasmtime. What is not the robot's
 //! doing becomes a [`HostError`](super::HostError) and never a verdict.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 use wasmtime::Trap;
@@ -13,7 +14,7 @@ use crate::maze::Cell;
 use crate::sim::Run;
 
 /// Which of the fuel limits ran out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum FuelLimit {
     /// The limit on instantiation, or on the call of `start`.
     Start,
@@ -24,7 +25,7 @@ pub enum FuelLimit {
 }
 
 /// The closed set of faults.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum FaultKind {
     /// The robot computed for too long.
     OutOfFuel(FuelLimit),
@@ -48,6 +49,9 @@ pub enum FaultKind {
     /// pointer outside memory or misaligned, text that is not UTF-8, a call
     /// into the host at a time when none is allowed.
     Interface,
+    /// The robot ended the process that it ran in, and did so again alone in a fresh
+    /// one. Only a flaw of wasmtime lets a robot do that.
+    Crash,
 }
 
 impl FaultKind {
@@ -66,6 +70,7 @@ impl FaultKind {
             Self::OutOfBounds => "out-of-bounds",
             Self::BadIndirectCall => "bad-indirect-call",
             Self::Interface => "interface",
+            Self::Crash => "crash",
         }
     }
 }
@@ -94,6 +99,7 @@ impl fmt::Display for Fault {
         let (run, step, cell) = (self.run.number(), self.step, self.cell);
         match self.phase {
             Phase::Instantiate => write!(f, "{} while it was loaded", self.detail),
+            Phase::Unknown => f.write_str(&self.detail),
             Phase::Start => write!(f, "{} in `start`", self.detail),
             Phase::NextMove => write!(f, "{} in step {step} (run {run}, at {cell})", self.detail),
         }

@@ -1,16 +1,11 @@
 //! [`Host`]: admits files as robots and gives them an engine to run on.
 
-use std::borrow::Cow;
-
 use wasmtime::component::{Component, InstancePre, Linker};
 use wasmtime::{Engine, Store};
 
 use super::bindings::RobotPre;
-use super::componentize::{BinaryKind, componentize};
 use super::guest::{self, Guest};
-use super::refusal::CONTROLLER;
-use super::shape::{self, Shape};
-use super::{Cache, Digest, HostError, Refusal, controller, engine, over_limit};
+use super::{Cache, Digest, HostError, Refusal, admission, controller, engine, over_limit};
 use crate::sim::Limits;
 
 /// Everything that robots need to run in this process: one engine with its pool
@@ -60,6 +55,18 @@ impl Host {
     /// assert!(matches!(host.admit(b""), Err(Refusal::Empty)));
     /// ```
     pub fn new(limits: Limits, matches: u32, cache: Option<Cache>) -> Result<Self, HostError> {
+        let host = Self::without_clock(limits, matches, cache)?;
+        host.start_clock()?;
+        Ok(host)
+    }
+
+    /// A host whose clock does not run yet, for a worker that is confined before it
+    /// starts a thread.
+    pub(super) fn without_clock(
+        limits: Limits,
+        matches: u32,
+        cache: Option<Cache>,
+    ) -> Result<Self, HostError> {
         let engine = engine::new_engine(&limits, matches.max(1))?;
         let linker = guest::linker(&engine)?;
         Ok(Self {
@@ -67,6 +74,32 @@ impl Host {
             linker,
             cache,
             limits,
+        })
+    }
+
+    /// Starts the clock that ends matches of a host that stands still.
+    pub(super) fn start_clock(&self) -> Result<(), HostError> {
+        engine::start_clock(&self.engine)
+    }
+
+    /// A robot from compiled code, for a worker.
+    ///
+    /// # Errors
+    ///
+    /// When the robot needs more than the pool has, or has other types than the WIT.
+    ///
+    /// # Safety
+    ///
+    /// The code must come from a compile worker of this host: wasmtime trusts it.
+    pub(super) unsafe fn load(&self, code: &[u8], digest: Digest) -> Result<Robot, Refusal> {
+        // SAFETY: the caller's promise is the one that wasmtime asks for.
+        let compiled = unsafe { Component::deserialize(&self.engine, code) }
+            .map_err(|error| over_limit::refusal(&error, &self.limits))?;
+        let pre = self.link(&compiled)?;
+        Ok(Robot {
+            pre,
+            digest,
+            cache: CacheUse::Off,
         })
     }
 
@@ -86,28 +119,12 @@ impl Host {
     ///
     /// The reason why the file is refused.
     pub fn admit(&self, bytes: &[u8]) -> Result<Robot, Refusal> {
-        let component = self.read(bytes)?;
-        check_names(&component.shape)?;
+        let component = admission::read(bytes, &self.limits)?;
+        admission::check_names(&component.shape)?;
         let digest = Digest::of(bytes);
         let (compiled, cache) = self.compile(&component.bytes, &digest)?;
         let pre = self.link(&compiled)?;
         Ok(Robot { pre, digest, cache })
-    }
-
-    /// What the file is, before it is compiled.
-    pub(super) fn read<'a>(&self, bytes: &'a [u8]) -> Result<ReadComponent<'a>, Refusal> {
-        let size = u64::try_from(bytes.len()).unwrap_or(u64::MAX);
-        let max = self.limits.component_bytes_max;
-        if size > max {
-            return Err(Refusal::TooLarge { max });
-        }
-        let kind = shape::binary_kind(bytes)?;
-        let bytes = match kind {
-            BinaryKind::CoreModule => Cow::Owned(componentize(bytes)?),
-            BinaryKind::Component | BinaryKind::Other => Cow::Borrowed(bytes),
-        };
-        let shape = Shape::read(&bytes)?;
-        Ok(ReadComponent { kind, bytes, shape })
     }
 
     fn compile(&self, component: &[u8], digest: &Digest) -> Result<(Component, CacheUse), Refusal> {
@@ -136,35 +153,6 @@ impl Host {
         controller::check_types(component)?;
         RobotPre::new(pre).map_err(wrong_type)
     }
-}
-
-/// A file read as a component.
-pub(super) struct ReadComponent<'a> {
-    /// What the file was.
-    pub(super) kind: BinaryKind,
-    /// The component: the file's bytes, or what was made of its core module.
-    pub(super) bytes: Cow<'a, [u8]>,
-    /// Its imports and exports.
-    pub(super) shape: Shape,
-}
-
-/// Imports and exports by name, for refusals that say what to do; their types
-/// are checked when linking.
-fn check_names(shape: &Shape) -> Result<(), Refusal> {
-    let unknown = |name: &&String| !is_known_import(name);
-    if let Some(name) = shape.imports.iter().find(unknown) {
-        return Err(Refusal::UnknownImport(name.clone()));
-    }
-    if !shape.exports.iter().any(|name| name == CONTROLLER) {
-        return Err(Refusal::NoController(shape.exports.clone()));
-    }
-    Ok(())
-}
-
-/// The interface `types` holds no functions, but its types are imported by every
-/// component that uses them.
-fn is_known_import(name: &str) -> bool {
-    name == guest::JOURNAL || name == "wasmouse:robot/types@0.1.0"
 }
 
 impl Robot {

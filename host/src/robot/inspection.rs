@@ -1,9 +1,10 @@
 //! [`Inspection`]: everything that can be told about a file without playing.
 
+use serde::{Deserialize, Serialize};
 use wit_component::{DecodedWasm, WitPrinter};
 
 use super::componentize::BinaryKind;
-use super::{Digest, Host, Refusal, Shape};
+use super::{Digest, Host, Refusal, Shape, admission};
 
 /// What a file is, what it needs, and whether it would be admitted.
 #[derive(Debug)]
@@ -26,7 +27,7 @@ pub struct Inspection {
 }
 
 /// What a component needs before it does anything.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Needs {
     /// Linear memories.
     pub memories: u32,
@@ -41,10 +42,10 @@ pub struct Needs {
 /// A page of linear memory, in bytes.
 const PAGE_BYTES: u64 = 64 << 10;
 
-impl Host {
-    /// Looks at a file as [`Host::admit`] would, and tells everything.
-    pub fn inspect(&self, bytes: &[u8]) -> Inspection {
-        let mut inspection = Inspection {
+impl Inspection {
+    /// What can be told of any bytes.
+    pub(super) fn new(bytes: &[u8]) -> Self {
+        Self {
             bytes: u64::try_from(bytes.len()).unwrap_or(u64::MAX),
             digest: Digest::of(bytes),
             kind: None,
@@ -52,8 +53,15 @@ impl Host {
             wit: None,
             needs: None,
             refusal: None,
-        };
-        let read = match self.read(bytes) {
+        }
+    }
+}
+
+impl Host {
+    /// Looks at a file as [`Host::admit`] would, and tells everything.
+    pub fn inspect(&self, bytes: &[u8]) -> Inspection {
+        let mut inspection = Inspection::new(bytes);
+        let read = match admission::read(bytes, self.limits()) {
             Ok(read) => read,
             Err(refusal) => {
                 inspection.kind = match BinaryKind::of(bytes) {
@@ -77,7 +85,7 @@ impl Host {
 
 impl super::Robot {
     /// What the robot needs before it does anything.
-    fn needs(&self) -> Option<Needs> {
+    pub(super) fn needs(&self) -> Option<Needs> {
         let required = self.component().resources_required()?;
         Some(Needs {
             memories: required.num_memories,
@@ -89,7 +97,7 @@ impl super::Robot {
 }
 
 /// The world that a component implements, as WIT.
-fn world(component: &[u8]) -> Option<String> {
+pub(super) fn world(component: &[u8]) -> Option<String> {
     let decoded = wit_component::decode(component).ok()?;
     let DecodedWasm::Component(resolve, world) = &decoded else {
         return None;

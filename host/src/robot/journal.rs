@@ -3,12 +3,13 @@
 //! Entries and their text live in two growing buffers that are reused from
 //! match to match. The text comes from a stranger: whoever shows it escapes it.
 
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 use crate::maze::{Cell, Heading};
 
 /// How much a log line matters, as in the WIT.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Level {
     /// For the author of the robot.
     Debug,
@@ -21,7 +22,7 @@ pub enum Level {
 }
 
 /// A colour for a cell, as in the WIT.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[expect(missing_docs, reason = "the colours name themselves")]
 pub enum Color {
     None,
@@ -36,7 +37,7 @@ pub enum Color {
 }
 
 /// What a robot believes about a wall, as in the WIT.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Belief {
     /// Not known.
     Unknown,
@@ -167,6 +168,11 @@ impl Journal {
     /// Entries that the limit kept out.
     pub const fn dropped(&self) -> u64 {
         self.dropped
+    }
+
+    /// How many entries there are, and how many the limit kept out.
+    pub fn counts(&self) -> (u64, u64) {
+        (u64::try_from(self.len()).unwrap_or(u64::MAX), self.dropped)
     }
 
     /// Adds an entry, or counts it as dropped.

@@ -4,13 +4,17 @@
 //! A [`Host`] admits files as [`Robot`]s or says in a [`Refusal`] why not, and
 //! plays matches with them: [`Host::play`]. What a robot does wrong is data (a
 //! [`Fault`] in the [`Verdict`]); an `Err` is a failure of the host and never a
-//! score. Robots run in this process; nothing outside this module knows that.
+//! score. A [`Referee`] hides whether a robot runs in this process or in a confined
+//! [`worker`].
 
 pub mod bundled;
 pub mod componentize;
+pub mod worker;
 
+mod admission;
 mod bindings;
 mod cache;
+mod code;
 mod controller;
 mod digest;
 mod engine;
@@ -23,6 +27,7 @@ mod journal;
 mod limiter;
 mod over_limit;
 mod play;
+mod referee;
 mod refusal;
 mod shape;
 
@@ -35,5 +40,11 @@ pub use host::{CacheUse, Host, Robot};
 pub use inspection::{Inspection, Needs};
 pub use journal::{Belief, Color, Entry, Journal, Level, Note};
 pub use play::{FuelUse, Game, Outcome, Phase, Recorder, Verdict};
+pub use referee::{Each, Isolation, Player, Record, Referee, Trust};
 pub use refusal::Refusal;
 pub use shape::Shape;
+pub use worker::{Executable, PATIENCE, Sandbox, Workers};
+
+/// Stack of the threads that run robots, in bytes: wasm gets its own limit of
+/// it, and wasmtime needs room for itself beyond that.
+pub const STACK_BYTES: usize = 8 << 20;

@@ -3,6 +3,7 @@
 //! A pure function of component, maze, ruleset, seed and setting: a fresh store
 //! and instance per match, fuel from the first instruction, and no clock.
 
+use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
 use wasmtime::Store;
@@ -11,7 +12,7 @@ use super::bindings::{self, Robot as RobotInstance};
 use super::fault::{FuelLimit, classify};
 use super::guest::Guest;
 use super::limiter::Limiter;
-use super::{Fault, FaultKind, Host, HostError, Journal, Robot, engine};
+use super::{Digest, Fault, FaultKind, Host, HostError, Journal, Robot, engine};
 use crate::maze::Maze;
 use crate::sim::{Action, Counts, End, Ruleset, Run, Score, Simulation, Trace};
 
@@ -41,8 +42,15 @@ pub struct Recorder {
     pub step_fuel: Vec<u64>,
 }
 
+impl Recorder {
+    /// The digest of the trace.
+    pub fn trace_digest(&self) -> Digest {
+        Digest::of(&self.trace.identity_bytes())
+    }
+}
+
 /// What the robot was doing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Phase {
     /// Core start functions and data segments.
     Instantiate,
@@ -50,6 +58,8 @@ pub enum Phase {
     Start,
     /// A call of `next-move`.
     NextMove,
+    /// Nobody knows: the process that would have is gone.
+    Unknown,
 }
 
 impl Phase {
@@ -59,6 +69,7 @@ impl Phase {
             Self::Instantiate => "instantiate",
             Self::Start => "start",
             Self::NextMove => "next-move",
+            Self::Unknown => "unknown",
         }
     }
 }
@@ -105,7 +116,7 @@ impl Verdict {
 
 /// Fuel that a match used. The fuel of instantiation is limited but not told:
 /// it depends on the operating system.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FuelUse {
     /// In `start`.
     pub start: u64,

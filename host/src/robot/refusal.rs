@@ -32,6 +32,19 @@ pub enum Refusal {
     /// An import or export has another type than in the WIT.
     #[error("the component does not fit the world `robot`: {0}")]
     WrongType(String),
+    /// Its compilation took too much, or ended the process that compiled it.
+    #[error("compiling the component {0}")]
+    Uncompilable(String),
+    /// What another process found.
+    #[error("{reason}")]
+    Told {
+        /// As [`Refusal::name`] there.
+        name: String,
+        /// The message.
+        reason: String,
+        /// As [`Refusal::hint`] there.
+        hint: String,
+    },
     /// The component needs more than the ruleset allows before it even runs.
     #[error("the component needs {what}, and the limit is {max}")]
     OverLimit {
@@ -55,7 +68,7 @@ fn list(names: &[String]) -> String {
 
 impl Refusal {
     /// A short name as in JSON: lowercase letters and hyphens.
-    pub const fn name(&self) -> &'static str {
+    pub fn name(&self) -> &str {
         match self {
             Self::Empty => "empty",
             Self::TooLarge { .. } => "too-large",
@@ -66,11 +79,13 @@ impl Refusal {
             Self::NoController(_) => "no-controller",
             Self::WrongType(_) => "wrong-type",
             Self::OverLimit { .. } => "over-limit",
+            Self::Uncompilable(_) => "uncompilable",
+            Self::Told { name, .. } => name,
         }
     }
 
     /// What the author can do.
-    pub fn hint(&self) -> &'static str {
+    pub fn hint(&self) -> &str {
         match self {
             Self::Empty | Self::NotWasm(_) => {
                 "a robot is a WebAssembly component (.wasm); `wasmouse build` makes one of a Rust \
@@ -98,6 +113,10 @@ impl Refusal {
                  `export_robot!` in the crate's root"
             }
             Self::WrongType(_) => "rebuild it against this version's `wit/robot.wit`",
+            Self::Uncompilable(_) => {
+                "build it in release mode, as smaller functions with fewer local variables"
+            }
+            Self::Told { hint, .. } => hint,
             Self::OverLimit { .. } => {
                 "build it with fewer or smaller memories, tables and instances"
             }

@@ -1,6 +1,7 @@
 //! [`Shape`]: what a file is and what it imports and exports, found by reading
 //! it, without compiling anything.
 
+use serde::{Deserialize, Serialize};
 use wasmparser::{Parser, Payload};
 use wasmtime::{Engine, Precompiled};
 
@@ -8,7 +9,7 @@ use super::Refusal;
 use super::componentize::BinaryKind;
 
 /// What a component declares at its outermost level.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shape {
     /// Names of imports, in order.
     pub imports: Vec<String>,

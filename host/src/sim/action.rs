@@ -3,6 +3,7 @@
 //! The same values as in `wit/robot.wit`, without any wasm in them.
 
 use crate::maze::Turn;
+use serde::{Deserialize, Serialize};
 
 /// The readings before a step: open cells to the nearest wall, relative to the
 /// robot's heading. Range of each: 0 to the maze's dimension - 1.
@@ -17,7 +18,7 @@ pub struct Sensors {
 }
 
 /// A robot's answer to one reading.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Action {
     /// Turn, then drive that many cells along the new heading. Negative drives
     /// backwards; the simulation clamps to the ruleset's longest move.

@@ -4,12 +4,14 @@
 //! enforces them all. They are part of the ruleset, because a verdict depends
 //! on them.
 
+use serde::{Deserialize, Serialize};
+
 /// The limits of one match, and of the admission to it.
 ///
 /// The defaults are wide enough for interpreted languages (a Python or
 /// JavaScript robot takes 20,000 to 100,000 units of fuel for a simple step, a
 /// compiled one about 70) and still end an endless loop within seconds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Limits {
     /// Size of the component file, in bytes. Stops files that exhaust the
     /// host's memory before anything is known about them. Default 32 MiB.

@@ -1,9 +1,10 @@
 //! [`Ruleset`]: the numbers of a contest, named and versioned.
 
 use super::Limits;
+use serde::{Deserialize, Serialize};
 
 /// What the step budget counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum BudgetScope {
     /// Both runs share it.
     BothRuns,
@@ -20,9 +21,11 @@ pub enum BudgetScope {
 /// let rules = Ruleset::by_name("udacity").expect("the default ruleset");
 /// assert_eq!((rules.version, rules.budget), (1, 1000));
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Ruleset {
     /// A short name: lowercase letters and hyphens.
+    // A worker process plays by numbers and needs no name.
+    #[serde(skip)]
     pub name: &'static str,
     /// Counted from 1.
     pub version: u32,

@@ -15,11 +15,11 @@ use super::failure::Failure;
 use super::output::{self, Existing};
 use super::robots::{self, Specification};
 use super::run;
-use super::setup::SetupArgs;
+use super::setup::{IsolationArgs, SetupArgs};
 use crate::contest::{Contest, MatchResult, Study};
 use crate::report::reference::published::{OFFICIAL, RANDOM_TRIES};
 use crate::report::reference::{Competitor, MARK, Reference};
-use crate::robot::Host;
+use crate::robot::Referee;
 use mazes::{MazeArgs, Mazes};
 
 /// Tries of the random robot in maze 01.
@@ -66,6 +66,8 @@ pub struct Args {
     force: bool,
     #[command(flatten)]
     setup: SetupArgs,
+    #[command(flatten)]
+    isolation: IsolationArgs,
 }
 
 /// Runs the command.
@@ -79,21 +81,21 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         groups,
         competition,
     } = args.mazes.load(&rules)?;
-    let host = args.setup.host()?;
+    let referee = args.setup.referee_for_all(&args.isolation)?;
     let contest = Contest {
-        entrants: robots::load(&specifications, &host)?,
+        entrants: robots::load(&specifications, &referee)?,
         mazes: all,
         seeds: vec![0],
         rules,
     };
     let threads = args.setup.threads();
-    let played = run::play(&contest, &host, threads)?;
+    let played = run::play(&contest, &referee, threads)?;
     let mut exit = run::exit(&contest, &played);
     let mut tries = None;
     if is_whole(exit)
-        && let Some(contest) = args.tries(&specifications, &contest, &host)?
+        && let Some(contest) = args.tries(&specifications, &contest, &referee)?
     {
-        let played = run::play(&contest, &host, threads)?;
+        let played = run::play(&contest, &referee, threads)?;
         let tries_exit = run::exit(&contest, &played);
         if !is_whole(tries_exit) {
             exit = tries_exit;
@@ -188,7 +190,7 @@ impl Args {
         &self,
         specifications: &[Specification],
         contest: &Contest,
-        host: &Host,
+        referee: &Referee,
     ) -> Result<Option<Contest>, Failure> {
         let random = specifications
             .iter()
@@ -202,7 +204,7 @@ impl Args {
             .iter()
             .filter(|maze| maze.name == OFFICIAL[0].name);
         Ok(Some(Contest {
-            entrants: robots::load(std::slice::from_ref(random), host)?,
+            entrants: robots::load(std::slice::from_ref(random), referee)?,
             mazes: maze_01.cloned().collect(),
             seeds: (0..count).collect(),
             rules: contest.rules,

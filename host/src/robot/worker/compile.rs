@@ -1,0 +1,136 @@
+//! The worker that compiles one file: [`main`].
+
+use std::io::{self, Write as _};
+use std::sync::mpsc;
+use std::thread;
+
+use wasmtime::Engine;
+
+use super::confine::{self, Role};
+use super::matches::read_exactly;
+use super::pipes::Pipes;
+use super::wire::{self, CompileOrder, Compiled, Examined, Hello, Sandbox};
+use crate::robot::componentize::BinaryKind;
+use crate::robot::{Digest, HostError, Refusal, admission, engine, inspection, over_limit};
+use crate::sim::Limits;
+
+/// Stack of the threads that read and compile: nested things recurse.
+const STACK_BYTES: usize = 16 << 20;
+
+/// Compiles the file on standard input and ends.
+///
+/// # Errors
+///
+/// When the pipes break or the machine cannot compile.
+pub fn main() -> io::Result<()> {
+    confine::close_inherited();
+    confine::die_with_parent();
+    let mut pipes = Pipes::standard()?;
+    let Some(order) = wire::read::<CompileOrder>(&mut pipes.from)? else {
+        return Ok(());
+    };
+    let file = read_exactly(&mut pipes.from, order.length)?;
+    enter(&order.limits.clone(), move |engine, sandbox| {
+        let build = wire::build();
+        wire::write(&mut pipes.to, &Hello { build, sandbox })?;
+        // So that the supervisor knows how far it came, whatever happens next.
+        pipes.to.flush()?;
+        let (examined, code) = examine(engine, &file, &order);
+        wire::write(&mut pipes.to, &examined)?;
+        pipes.to.write_all(&code)?;
+        pipes.to.flush()
+    })
+}
+
+/// Confines this process and then works on a thread with a large stack. The process
+/// can compile afterwards, and not much more.
+///
+/// # Errors
+///
+/// When the machine gives no engine or no threads, or the work fails.
+pub fn enter<W>(limits: &Limits, work: W) -> io::Result<()>
+where
+    W: FnOnce(&Engine, Sandbox) -> io::Result<()> + Send + 'static,
+{
+    confine::set_limits(Role::Compile);
+    let failed = |error: HostError| io::Error::other(error.to_string());
+    let engine = engine::new_compiler(limits).map_err(failed)?;
+    let landlock = confine::forbid_files();
+    // Threads begin before they are forbidden too, and after what holds only for
+    // threads that begin later.
+    rayon::ThreadPoolBuilder::new()
+        .stack_size(STACK_BYTES)
+        .build_global()
+        .map_err(io::Error::other)?;
+    let (confined, wait) = mpsc::sync_channel(1);
+    let worker = thread::Builder::new()
+        .name("compile".into())
+        .stack_size(STACK_BYTES)
+        .spawn(move || match wait.recv() {
+            Ok(sandbox) => work(&engine, sandbox),
+            Err(_) => Ok(()),
+        })?;
+    let seccomp = confine::forbid_system_calls(Role::Compile);
+    // The receiver waits for nothing else.
+    let _ = confined.send(Sandbox { landlock, seccomp });
+    worker
+        .join()
+        .unwrap_or_else(|_| Err(io::Error::other("the thread that compiles panicked")))
+}
+
+/// What the file is, and its compiled code where that was wanted and can be had.
+fn examine(engine: &Engine, file: &[u8], order: &CompileOrder) -> (Examined, Vec<u8>) {
+    let mut examined = Examined {
+        kind: None,
+        shape: None,
+        wit: None,
+        result: Compiled::NotWanted,
+    };
+    let read = match admission::read(file, &order.limits) {
+        Ok(read) => read,
+        Err(refusal) => {
+            examined.kind = known_kind(file);
+            examined.result = Compiled::Refused(refusal.into());
+            return (examined, Vec::new());
+        }
+    };
+    examined.kind = Some(read.kind);
+    if order.describe {
+        examined.wit = inspection::world(&read.bytes);
+    }
+    let names = admission::check_names(&read.shape);
+    examined.shape = Some(read.shape);
+    if let Err(refusal) = names {
+        examined.result = Compiled::Refused(refusal.into());
+        return (examined, Vec::new());
+    }
+    if !order.compile {
+        return (examined, Vec::new());
+    }
+    match compile(engine, &read.bytes, &order.limits) {
+        Ok(code) => {
+            examined.result = Compiled::Code {
+                length: u64::try_from(code.len()).unwrap_or(u64::MAX),
+                digest: Digest::of(&code),
+            };
+            (examined, code)
+        }
+        Err(refusal) => {
+            examined.result = Compiled::Refused(refusal.into());
+            (examined, Vec::new())
+        }
+    }
+}
+
+fn compile(engine: &Engine, component: &[u8], limits: &Limits) -> Result<Vec<u8>, Refusal> {
+    engine
+        .precompile_component(component)
+        .map_err(|error| over_limit::refusal(&error, limits))
+}
+
+fn known_kind(file: &[u8]) -> Option<BinaryKind> {
+    match BinaryKind::of(file) {
+        BinaryKind::Other => None,
+        kind => Some(kind),
+    }
+}

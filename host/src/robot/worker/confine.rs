@@ -1,0 +1,110 @@
+//! What a worker gives up before it meets a stranger's bytes.
+//!
+//! The order matters: descriptors and limits first, then whatever needs files or
+//! threads (the engine), then landlock, which holds for the calling thread and those
+//! it starts, then the threads, then seccomp for all of them.
+
+/// What a worker is for, which decides what it may still do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Reads and compiles one file; never runs its code.
+    Compile,
+    /// Runs compiled robots.
+    Play,
+}
+
+impl Role {
+    /// The name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Compile => "compile",
+            Self::Play => "play",
+        }
+    }
+}
+
+/// Address space of a compile worker, in bytes. The largest known robots (Python)
+/// take half a gigabyte.
+pub const COMPILE_MEMORY_BYTES: u64 = 2 << 30;
+
+/// Processor time of a compile worker, in seconds, all threads together. The largest
+/// known robots take 30 s on a slow machine.
+pub const COMPILE_CPU_SECONDS: u64 = 120;
+
+#[cfg(target_os = "linux")]
+pub use linux::{close_inherited, die_with_parent, forbid_files, forbid_system_calls};
+#[cfg(unix)]
+pub use unix::set_limits;
+
+#[cfg(not(target_os = "linux"))]
+mod elsewhere {
+    use super::Role;
+
+    /// Descriptors are closed by the standard library where it opened them.
+    pub fn close_inherited() {}
+
+    /// The worker notices when its input ends.
+    pub fn die_with_parent() {}
+
+    /// There is no landlock here.
+    pub fn forbid_files() -> bool {
+        false
+    }
+
+    /// There is no seccomp here.
+    pub fn forbid_system_calls(_role: Role) -> bool {
+        false
+    }
+}
+
+#[cfg(not(target_os = "linux"))]
+pub use elsewhere::{close_inherited, die_with_parent, forbid_files, forbid_system_calls};
+
+/// There are no such limits here.
+#[cfg(not(unix))]
+pub fn set_limits(_role: Role) {}
+
+#[cfg(target_os = "linux")]
+#[path = "confine_linux.rs"]
+mod linux;
+
+#[cfg(unix)]
+mod unix {
+    use rustix::process::{Resource, Rlimit, setrlimit};
+
+    /// The anonymous file with a robot's initial memory is a file to the kernel. No
+    /// ruleset gives a robot more memory.
+    const MEMORY_FILE_BYTES: u64 = 1 << 30;
+
+    use super::{COMPILE_CPU_SECONDS, COMPILE_MEMORY_BYTES, Role};
+
+    /// Limits the process by the operating system. What cannot be limited stays
+    /// unlimited: every limit here is a second line.
+    pub fn set_limits(role: Role) {
+        // No core may be written, and few descriptors are needed.
+        limit(Resource::Core, 0, 0);
+        limit(Resource::Nofile, 64, 64);
+        let file_bytes = match role {
+            Role::Compile => 0,
+            Role::Play => MEMORY_FILE_BYTES,
+        };
+        limit(Resource::Fsize, file_bytes, file_bytes);
+        // A pool of instances reserves terabytes of address space without using
+        // them, so only the compiler can be limited by that.
+        if role == Role::Compile {
+            limit(Resource::As, COMPILE_MEMORY_BYTES, COMPILE_MEMORY_BYTES);
+            // The first limit ends it by a signal of its own, which tells the
+            // supervisor why; the second one kills.
+            limit(Resource::Cpu, COMPILE_CPU_SECONDS, COMPILE_CPU_SECONDS + 5);
+        }
+    }
+
+    fn limit(resource: Resource, current: u64, maximum: u64) {
+        let limit = Rlimit {
+            current: Some(current),
+            maximum: Some(maximum),
+        };
+        // A lower limit that is already there may not be raised, and need not be.
+        let _ = setrlimit(resource, limit);
+    }
+}

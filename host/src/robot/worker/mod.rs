@@ -1,0 +1,30 @@
+//! Robots in other processes: a supervisor that never compiles or runs a stranger's
+//! code, and the confined workers that do.
+//!
+//! One executable has three roles. The [`Supervisor`] lives in the process that the
+//! user started. It starts the executable again as a *compile worker*, one for each
+//! file, which reads the file, decides whether it can be a robot, and hands compiled
+//! code back; and as *play workers*, which live long, keep robots and mazes, and play
+//! batches of matches. What a worker says is believed as far as it has to be: the
+//! supervisor plays the robot's answers through its own simulation, so a score comes
+//! from the rules and not from the worker.
+
+pub mod confine;
+
+mod compile;
+mod compiler;
+mod keeper;
+mod matches;
+mod pipes;
+mod pool;
+mod process;
+mod replay;
+mod supervisor;
+mod wire;
+
+pub use compile::{enter as enter_compile, main as compile_main};
+pub use confine::Role;
+pub use matches::{enter as enter_play, main as play_main, main_with as play_main_with};
+pub use process::{Executable, PATIENCE, Workers};
+pub use supervisor::{RemoteRobot, Supervisor};
+pub use wire::Sandbox;

@@ -1,0 +1,43 @@
+//! The standard streams of a worker as plain files: unbuffered, and without the lines
+//! that the standard library looks for in text.
+
+use std::fs::File;
+use std::io::{self, BufReader, BufWriter};
+
+/// What the supervisor sends and what it receives.
+pub(super) struct Pipes {
+    pub(super) from: BufReader<File>,
+    pub(super) to: BufWriter<File>,
+}
+
+/// Bytes that are read and written at once.
+const BUFFER_BYTES: usize = 64 << 10;
+
+impl Pipes {
+    /// The standard input and output of this process, which nothing else may use.
+    pub(super) fn standard() -> io::Result<Self> {
+        let (from, to) = standard_files()?;
+        Ok(Self {
+            from: BufReader::with_capacity(BUFFER_BYTES, from),
+            to: BufWriter::with_capacity(BUFFER_BYTES, to),
+        })
+    }
+}
+
+#[cfg(unix)]
+fn standard_files() -> io::Result<(File, File)> {
+    use std::os::fd::AsFd as _;
+
+    let from = io::stdin().as_fd().try_clone_to_owned()?;
+    let to = io::stdout().as_fd().try_clone_to_owned()?;
+    Ok((from.into(), to.into()))
+}
+
+#[cfg(windows)]
+fn standard_files() -> io::Result<(File, File)> {
+    use std::os::windows::io::AsHandle as _;
+
+    let from = io::stdin().as_handle().try_clone_to_owned()?;
+    let to = io::stdout().as_handle().try_clone_to_owned()?;
+    Ok((from.into(), to.into()))
+}

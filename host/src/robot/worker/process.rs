@@ -1,0 +1,322 @@
+//! [`Process`]: one worker, seen from the supervisor.
+
+use std::ffi::OsString;
+use std::fmt;
+use std::io::{self, BufReader, BufWriter, Read as _, Write as _};
+use std::path::PathBuf;
+use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
+use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::confine::Role;
+use super::keeper::{Keeper, Watched};
+use super::wire::{self, Hello, Sandbox};
+use crate::robot::{HostError, MATCH_SECONDS_MAX};
+
+/// How workers are run.
+#[derive(Clone, Debug)]
+pub struct Workers {
+    /// The program that they are started from.
+    pub executable: Executable,
+    /// What a match may take on the wall clock. It says nothing about the robot: fuel
+    /// ends matches, and this ends a worker that stands still.
+    pub patience: Duration,
+    /// Fail where the operating system cannot confine them completely.
+    pub require_sandbox: bool,
+}
+
+/// What a match may take on the wall clock before its worker is killed, unless somebody
+/// chooses otherwise: somewhat more than its own clock would let it.
+pub const PATIENCE: Duration = Duration::from_secs(MATCH_SECONDS_MAX + 30);
+
+/// Starts workers.
+pub(super) struct Starter {
+    pub(super) keeper: Keeper,
+    pub(super) workers: Workers,
+}
+
+impl Starter {
+    /// Whether a worker that is confined so may work.
+    pub(super) const fn may_use(&self, sandbox: Sandbox) -> bool {
+        sandbox.is_complete() || !self.workers.require_sandbox
+    }
+}
+
+/// What a worker may take to begin.
+const START_TIME_MAX: Duration = Duration::from_secs(30);
+
+/// What is kept of a worker's last words, in bytes.
+const WORDS_BYTES_MAX: u64 = 4 << 10;
+
+/// The program that workers are started from.
+#[derive(Clone, Debug)]
+pub struct Executable(PathBuf);
+
+impl Executable {
+    /// The program of this process, also when its file has been replaced meanwhile.
+    ///
+    /// # Errors
+    ///
+    /// When the operating system does not tell where it is.
+    pub fn current() -> io::Result<Self> {
+        if cfg!(target_os = "linux") {
+            Ok(Self("/proc/self/exe".into()))
+        } else {
+            std::env::current_exe().map(Self)
+        }
+    }
+
+    /// Another program that has the same roles.
+    pub fn at(path: impl Into<PathBuf>) -> Self {
+        Self(path.into())
+    }
+
+    fn command(&self, role: Role) -> Command {
+        let mut command = Command::new(&self.0);
+        command
+            .args(["worker", role.name()])
+            .env_clear()
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        // Coverage and sanitizers of a test build write where these say.
+        for name in ["LLVM_PROFILE_FILE", "ASAN_OPTIONS"] {
+            if let Some(value) = std::env::var_os(name) {
+                command.env(name, value);
+            }
+        }
+        #[cfg(unix)]
+        {
+            use std::os::unix::process::CommandExt as _;
+            // Ctrl-C is for the supervisor, which ends its workers itself.
+            command.process_group(0);
+            command.arg0(OsString::from("wasmouse"));
+        }
+        command
+    }
+}
+
+/// A worker with its pipes. Dropping it kills it.
+pub(super) struct Process {
+    watched: Arc<Watched>,
+    to: BufWriter<ChildStdin>,
+    from: BufReader<ChildStdout>,
+    words: ChildStderr,
+}
+
+/// How a worker ended that should not have.
+#[derive(Debug)]
+pub(super) struct Death {
+    /// How the process ended; `None` when it had to be killed.
+    pub(super) status: Option<ExitStatus>,
+    /// Whether it was killed because it took too long.
+    pub(super) expired: bool,
+    /// What went wrong on the supervisor's side of the pipe.
+    pub(super) error: String,
+    /// The end of what it wrote to standard error.
+    pub(super) words: String,
+}
+
+impl Process {
+    /// Starts a worker.
+    pub(super) fn start(starter: &Starter, role: Role) -> Result<Self, HostError> {
+        let take =
+            |child: &mut Child| (child.stdin.take(), child.stdout.take(), child.stderr.take());
+        let command = starter.workers.executable.command(role);
+        let spawned = starter.keeper.spawn(command, take);
+        let failed = |reason: String| HostError::Worker {
+            role: role.name(),
+            reason,
+        };
+        let (watched, pipes) = spawned.map_err(|error| failed(error.to_string()))?;
+        let (Some(stdin), Some(stdout), Some(words)) = pipes else {
+            return Err(failed("it has no pipes".into()));
+        };
+        watched.expect_within(START_TIME_MAX);
+        Ok(Self {
+            watched,
+            to: BufWriter::with_capacity(64 << 10, stdin),
+            from: BufReader::with_capacity(64 << 10, stdout),
+            words,
+        })
+    }
+
+    /// Has it killed when nothing else is said within `time`.
+    pub(super) fn expect_within(&self, time: Duration) {
+        self.watched.expect_within(time);
+    }
+
+    /// Lets it wait.
+    pub(super) fn expect_nothing(&self) {
+        self.watched.expect_nothing();
+    }
+
+    /// Sends a frame, perhaps later.
+    pub(super) fn send(&mut self, value: &impl Serialize) -> io::Result<()> {
+        wire::write(&mut self.to, value)
+    }
+
+    /// Sends everything that waits.
+    pub(super) fn flush(&mut self) -> io::Result<()> {
+        self.to.flush()
+    }
+
+    /// Where large bytes are written to.
+    pub(super) const fn writer(&mut self) -> &mut BufWriter<ChildStdin> {
+        &mut self.to
+    }
+
+    /// Where large bytes are read from.
+    pub(super) const fn reader(&mut self) -> &mut BufReader<ChildStdout> {
+        &mut self.from
+    }
+
+    /// Waits for a frame.
+    pub(super) fn receive<T: DeserializeOwned>(&mut self) -> io::Result<T> {
+        wire::expect(&mut self.from)
+    }
+
+    /// Waits for the first frame and looks whether it is one of ours.
+    pub(super) fn greet(&mut self) -> io::Result<Sandbox> {
+        let hello: Hello = self.receive()?;
+        let build = wire::build();
+        if hello.build == build {
+            Ok(hello.sandbox)
+        } else {
+            let other: String = hello.build.chars().take(80).collect();
+            Err(io::Error::other(format!(
+                "the worker is `{other}` and the supervisor `{build}`"
+            )))
+        }
+    }
+
+    /// Ends it after `error` and tells how it ended.
+    pub(super) fn bury(mut self, error: &io::Error) -> Death {
+        let broken = matches!(
+            error.kind(),
+            io::ErrorKind::UnexpectedEof | io::ErrorKind::BrokenPipe
+        );
+        let mut child = self.watched.child();
+        // A broken pipe means that it is ending by itself, and how it does says why.
+        let status = if broken && !self.watched.expired() {
+            ended(&mut child)
+        } else {
+            None
+        };
+        // Without effect on one that has ended.
+        let _ = child.kill();
+        let _ = child.wait();
+        drop(child);
+        let mut words = Vec::new();
+        // All that is left are its last words; the writing end is closed.
+        let _ = (&mut self.words)
+            .take(WORDS_BYTES_MAX)
+            .read_to_end(&mut words);
+        Death {
+            status,
+            expired: self.watched.expired(),
+            error: error.to_string(),
+            words: String::from_utf8_lossy(&words).trim().to_owned(),
+        }
+    }
+}
+
+/// How a process ends that closed its pipe, which takes it a moment.
+fn ended(child: &mut Child) -> Option<ExitStatus> {
+    const LOOKS: u32 = 1000;
+    for _ in 0..LOOKS {
+        if let Ok(Some(status)) = child.try_wait() {
+            return Some(status);
+        }
+        thread::sleep(Duration::from_millis(1));
+    }
+    None
+}
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        let mut child = self.watched.child();
+        // It may have ended by itself; what matters is that nothing stays behind.
+        let _ = child.kill();
+        let _ = child.wait();
+    }
+}
+
+impl Death {
+    /// The signal that ended it.
+    pub(super) fn signal(&self) -> Option<i32> {
+        #[cfg(unix)]
+        {
+            use std::os::unix::process::ExitStatusExt as _;
+            self.status.and_then(|status| status.signal())
+        }
+        #[cfg(not(unix))]
+        None
+    }
+
+    /// Whether it was killed by somebody else than the supervisor, which says nothing
+    /// about what it did.
+    pub(super) fn is_kill(&self) -> bool {
+        #[cfg(unix)]
+        {
+            use rustix::process::Signal;
+            let outside = [Signal::KILL, Signal::TERM, Signal::HUP, Signal::INT];
+            self.signal()
+                .is_some_and(|signal| outside.iter().any(|other| other.as_raw() == signal))
+        }
+        #[cfg(not(unix))]
+        false
+    }
+
+    /// Whether it ended by a signal that a process brings about by what it does: a bad
+    /// access, an illegal instruction, an abort.
+    pub(super) fn is_crash(&self) -> bool {
+        #[cfg(unix)]
+        {
+            use rustix::process::Signal;
+            let own = [
+                Signal::SEGV,
+                Signal::BUS,
+                Signal::ILL,
+                Signal::ABORT,
+                Signal::FPE,
+                Signal::TRAP,
+                Signal::SYS,
+            ];
+            self.signal()
+                .is_some_and(|signal| own.iter().any(|other| other.as_raw() == signal))
+        }
+        #[cfg(not(unix))]
+        self.status.is_some_and(|status| !status.success())
+    }
+
+    /// Whether it used up its processor time.
+    pub(super) fn is_out_of_processor_time(&self) -> bool {
+        #[cfg(unix)]
+        {
+            self.signal() == Some(rustix::process::Signal::XCPU.as_raw())
+        }
+        #[cfg(not(unix))]
+        false
+    }
+}
+
+impl fmt::Display for Death {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.expired {
+            write!(f, "it took too long and was killed")?;
+        } else if let Some(status) = self.status {
+            write!(f, "it ended with {status}")?;
+        } else {
+            write!(f, "{}", self.error)?;
+        }
+        if let Some(line) = self.words.lines().last() {
+            write!(f, ": {line}")?;
+        }
+        Ok(())
+    }
+}

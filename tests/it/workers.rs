@@ -1,0 +1,214 @@
+//! Robots in worker processes: the same results as in this process, whatever happens to
+//! the workers.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+use wasmouse::contest::{Contest, ContestMaze, Entrant, Played};
+use wasmouse::maze::generate::GenSpec;
+use wasmouse::robot::bundled::find;
+use wasmouse::robot::{
+    Digest, Executable, HostError, Isolation, PATIENCE, Referee, Trust, Verdict, Workers,
+};
+use wasmouse::sim::Ruleset;
+
+use crate::binary;
+use crate::hostile::{Module, assert_unharmed, host};
+
+/// A referee whose workers are that program.
+fn referee(executable: Executable, patience: Duration) -> Referee {
+    let workers = Workers {
+        executable,
+        patience,
+        require_sandbox: false,
+    };
+    Referee::new(Ruleset::default(), 2, None, Isolation::Workers(workers))
+}
+
+fn real() -> Referee {
+    referee(Executable::at(binary::path()), PATIENCE)
+}
+
+/// A referee whose workers go wrong at certain seeds; see `tests/bin/faulty_worker.rs`.
+fn faulty(patience: Duration) -> Referee {
+    let program = Executable::at(env!("CARGO_BIN_EXE_faulty-worker"));
+    referee(program, patience)
+}
+
+const CRASH: u64 = 901;
+const CRASH_LATER: u64 = 902;
+const HANG: u64 = 903;
+const LEAVE: u64 = 904;
+
+/// The bundled robots in ten mazes, with those seeds.
+fn contest(referee: &Referee, trust: Trust, robots: &[&str], seeds: &[u64]) -> Contest {
+    let rules = Ruleset::default();
+    let entrants = robots.iter().map(|name| {
+        let component = find(name).expect("a bundled robot").component;
+        let admission = referee.admit(component, trust).expect("the host works");
+        Entrant {
+            name: (*name).to_owned(),
+            digest: Digest::of(component),
+            setting: 0,
+            admission: admission.map(Arc::new).map_err(Arc::new),
+        }
+    });
+    let mazes: GenSpec = "gen:braid:12:1..=10".parse().expect("a specification");
+    Contest {
+        entrants: entrants.collect(),
+        mazes: mazes
+            .expand()
+            .map(|(name, maze)| ContestMaze::new(name, maze, &rules))
+            .collect(),
+        seeds: seeds.to_vec(),
+        rules,
+    }
+}
+
+fn play(contest: &Contest, referee: &Referee, threads: usize) -> Played {
+    contest
+        .run(referee, threads, &AtomicBool::new(false), &|| ())
+        .expect("there are threads")
+}
+
+/// The results of robots that run in this process.
+fn expected(robots: &[&str], seeds: &[u64]) -> Played {
+    let referee = Referee::new(Ruleset::default(), 1, None, Isolation::None);
+    let contest = contest(&referee, Trust::Trusted, robots, seeds);
+    play(&contest, &referee, 1)
+}
+
+#[test]
+fn workers_give_the_same_results() {
+    let robots = ["flood", "random", "minnett", "dfs"];
+    let expected = expected(&robots, &[0, 1]);
+    let referee = real();
+    let contest = contest(&referee, Trust::Stranger, &robots, &[0, 1]);
+    for threads in [1, 3] {
+        let played = play(&contest, &referee, threads);
+        assert_eq!(played.results, expected.results, "{threads} threads");
+        assert!(played.failed.is_empty());
+    }
+}
+
+/// Plays with workers that go wrong at one of the seeds, and requires that everything
+/// else is as ever.
+#[track_caller]
+fn check_rest(seed: u64, patience: Duration, robots: &[&str]) -> Played {
+    let expected = expected(robots, &[0, seed, 1]);
+    let referee = faulty(patience);
+    let contest = contest(&referee, Trust::Stranger, robots, &[0, seed, 1]);
+    let played = play(&contest, &referee, 2);
+    let others = |played: &Played| {
+        let results = played.results.iter();
+        let others: Vec<_> = results.filter(|it| it.seed != seed).cloned().collect();
+        others
+    };
+    assert_eq!(others(&played), others(&expected));
+    assert_eq!(
+        played.results.len() + played.failed.len(),
+        contest.matches()
+    );
+    played
+}
+
+#[test]
+fn a_robot_is_blamed_for_a_crash_that_repeats_alone() {
+    let played = check_rest(CRASH, PATIENCE, &["flood", "dfs"]);
+    let crashed = played.results.iter().filter(|it| it.seed == CRASH);
+    let mut count = 0;
+    for result in crashed {
+        count += 1;
+        let Verdict::Fault(fault) = &result.outcome.verdict else {
+            panic!("{:?}", result.outcome.verdict);
+        };
+        assert_eq!(fault.kind.name(), "crash");
+        assert!(fault.to_string().contains("SIGABRT"), "{fault}");
+    }
+    assert_eq!(count, 20);
+}
+
+#[test]
+fn a_crash_that_does_not_repeat_alone_is_nobodys_fault() {
+    let played = check_rest(CRASH_LATER, PATIENCE, &["flood", "dfs"]);
+    assert_eq!(
+        played.results,
+        expected(&["flood", "dfs"], &[0, CRASH_LATER, 1]).results
+    );
+}
+
+#[test]
+fn a_worker_that_stands_still_is_a_failure_of_the_host() {
+    // One robot and few matches: each waits for the clock twice.
+    let referee = faulty(Duration::from_secs(1));
+    let mut contest = contest(&referee, Trust::Stranger, &["flood"], &[0, HANG, 1]);
+    contest.mazes.truncate(1);
+    let played = play(&contest, &referee, 2);
+    assert_eq!(played.results.len(), 2);
+    let [failed] = &played.failed[..] else {
+        panic!("{:?}", played.failed);
+    };
+    assert_eq!(failed.seed, HANG);
+    assert!(
+        matches!(failed.error, HostError::Stalled),
+        "{}",
+        failed.error
+    );
+}
+
+#[test]
+fn a_worker_that_leaves_is_a_failure_of_the_host() {
+    let played = check_rest(LEAVE, PATIENCE, &["flood"]);
+    assert_eq!(played.failed.len(), 10);
+    let error = played.failed[0].error.to_string();
+    assert!(error.contains("exit status: 0"), "{error}");
+}
+
+/// Another version of wasmouse, or no wasmouse at all, is not believed.
+#[test]
+fn a_worker_of_another_build_is_refused() {
+    for (program, expected) in [
+        ("/bin/cat", "the worker that should play failed"),
+        ("/bin/false", "the worker that should play failed"),
+        ("/nonexistent", "No such file"),
+    ] {
+        let referee = referee(Executable::at(program), PATIENCE);
+        let flood = find("flood").expect("a bundled robot").component;
+        match referee.admit(flood, Trust::Stranger) {
+            Err(error) => assert!(error.to_string().contains(expected), "{error}"),
+            Ok(_) => panic!("{program} is a worker"),
+        }
+    }
+}
+
+#[test]
+fn refusals_are_the_same_in_workers() {
+    let referee = real();
+    let inside = host(Ruleset::default().limits);
+    let foreign = Module {
+        imports: r#"(import "env" "f" (func))"#,
+        ..Module::default()
+    };
+    let files: [&[u8]; 6] = [
+        b"",
+        b"(module)",
+        b"\x7fELF rest",
+        b"\0asm\x0d\0\x01\0\xff",
+        &foreign.core(),
+        &crate::hostile::wasm("(component)"),
+    ];
+    for file in files {
+        let there = referee
+            .admit(file, Trust::Stranger)
+            .expect("the host works");
+        let (Err(here), Err(there)) = (inside.admit(file), there) else {
+            panic!("admitted: {file:?}");
+        };
+        let all = |it: &wasmouse::robot::Refusal| {
+            (it.name().to_owned(), it.to_string(), it.hint().to_owned())
+        };
+        assert_eq!(all(&there), all(&here));
+    }
+    assert_unharmed(&inside);
+}
