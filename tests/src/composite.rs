@@ -122,6 +122,36 @@ impl Composite<'_> {
         )
     }
 
+    /// The robot as one of two components inside another, beside one in text that has
+    /// the name `$callee` and exports the function `take`; the robot imports that.
+    /// (A component cannot call those that are inside itself.)
+    ///
+    /// # Panics
+    ///
+    /// When the text is no component.
+    #[track_caller]
+    pub fn beside(&self, callee: &str) -> Vec<u8> {
+        let robot = self.wat().replacen("(component", "(component $robot", 1);
+        wasm(&format!(
+            r#"(component
+                {TYPES}
+                {JOURNAL}
+                (alias export $journal "level" (type $level))
+                (alias export $journal "log" (func $log))
+                {callee}
+                (instance $callee (instantiate $callee
+                    (with "level" (type $level))
+                    (with "log" (func $log))))
+                {robot}
+                (instance $robot (instantiate $robot
+                    (with "wasmouse:robot/types@0.1.0" (instance $types))
+                    (with "wasmouse:robot/journal@0.1.0" (instance $journal))
+                    (with "take" (func $callee "take"))))
+                (alias export $robot "wasmouse:robot/controller@0.1.0" (instance $controller))
+                (export "wasmouse:robot/controller@0.1.0" (instance $controller)))"#
+        ))
+    }
+
     /// The component in binary form.
     ///
     /// # Panics

@@ -12,6 +12,7 @@
 
 use serde::Serialize;
 
+use super::json;
 use crate::robot::bundled::BundledRobot;
 
 /// The version of this JSON; raised when a reader of the old one would go wrong.
@@ -66,9 +67,6 @@ impl BundledReport {
 
     /// The document as text, indented, with a newline at the end.
     pub fn to_json(&self) -> String {
-        let mut text = serde_json::to_string_pretty(self)
-            .expect("strings, numbers and lists always serialise");
-        text.push('\n');
-        text
+        json::document(self)
     }
 }

@@ -16,7 +16,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::visible;
+use super::{json, visible};
 use crate::robot::componentize::BinaryKind;
 use crate::robot::{Inspection, Refusal};
 
@@ -89,10 +89,7 @@ impl<'a> InspectionReport<'a> {
 
     /// The report as JSON, indented, with a newline at the end.
     pub fn to_json(&self) -> String {
-        let mut text = serde_json::to_string_pretty(self)
-            .expect("strings, numbers and lists always serialise");
-        text.push('\n');
-        text
+        json::document(self)
     }
 }
 

@@ -22,6 +22,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use super::json;
 use crate::maze::format::Format;
 use crate::maze::{Cell, Maze, Survey, Violation};
 
@@ -49,10 +50,7 @@ impl MazeCheck {
 
     /// The document as text, indented, with a newline at the end.
     pub fn to_json(&self) -> String {
-        let mut text = serde_json::to_string_pretty(self)
-            .expect("strings, numbers and maps with string keys always serialise");
-        text.push('\n');
-        text
+        json::document(self)
     }
 }
 

@@ -23,6 +23,7 @@
 
 use serde::Serialize;
 
+use super::json;
 use crate::maze::{Floor, Path};
 use crate::sim::Score;
 
@@ -47,10 +48,7 @@ impl MazeSolve {
 
     /// The document as text, indented, with a newline at the end.
     pub fn to_json(&self) -> String {
-        let mut text =
-            serde_json::to_string_pretty(self).expect("strings and numbers always serialise");
-        text.push('\n');
-        text
+        json::document(self)
     }
 }
 

@@ -15,6 +15,7 @@ pub mod replay;
 pub mod result;
 pub mod table;
 
+mod json;
 mod markdown;
 mod visible;
 

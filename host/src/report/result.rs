@@ -36,6 +36,7 @@
 
 use serde::Serialize;
 
+use super::json;
 use crate::contest::{
     Contest, ContestMaze, Entrant, FailedMatch, MatchResult, Mean, Played, Standing,
 };
@@ -92,10 +93,7 @@ impl<'a> ContestReport<'a> {
 
     /// The document as text, indented, with a newline at the end.
     pub fn to_json(&self) -> String {
-        let mut text = serde_json::to_string_pretty(self)
-            .expect("strings, numbers and lists always serialise");
-        text.push('\n');
-        text
+        json::document(self)
     }
 }
 

@@ -1,5 +1,7 @@
 //! [`visible`]: text from strangers, made harmless for a terminal.
 
+use std::fmt::Write as _;
+
 /// The text with everything escaped that could play with a terminal or with the
 /// eye: control characters, line breaks, bidirectional overrides, zero-width and
 /// other invisible characters.
@@ -17,6 +19,25 @@ pub fn visible(text: &str) -> String {
             shown.extend(character.escape_debug());
         } else if is_invisible(character) {
             shown.extend(character.escape_unicode());
+        } else {
+            shown.push(character);
+        }
+    }
+    shown
+}
+
+/// JSON with everything escaped that [`visible`] would escape: it means the same to a
+/// program and does nothing to a terminal. JSON escapes only the first 32 characters by
+/// itself.
+pub(super) fn visible_json(json: &str) -> String {
+    let mut shown = String::with_capacity(json.len());
+    for character in json.chars() {
+        // Line breaks are between values; those in text are escaped already. So are
+        // all other such characters in text: nothing else of JSON needs them.
+        if character != '\n' && (character.is_control() || is_invisible(character)) {
+            for unit in character.encode_utf16(&mut [0; 2]) {
+                write!(shown, "\\u{unit:04x}").expect("writing to a string cannot fail");
+            }
         } else {
             shown.push(character);
         }

@@ -64,7 +64,7 @@ impl Shape {
     ///
     /// # Errors
     ///
-    /// [`Refusal::Invalid`] when the file is malformed.
+    /// [`Refusal::Invalid`] when the file is malformed, or its types are nested too deep.
     pub(super) fn read(component: &[u8]) -> Result<Self, Refusal> {
         let invalid = |error: wasmparser::BinaryReaderError| Refusal::Invalid(error.to_string());
         let mut shape = Self::default();
@@ -87,6 +87,18 @@ impl Shape {
                         shape
                             .exports
                             .push(export.map_err(invalid)?.name.name.to_owned());
+                    }
+                }
+                // This parser refuses types that are nested too deep, at any depth of
+                // components; that of wasmtime would overflow the stack.
+                Payload::ComponentTypeSection(section) => {
+                    for item in section {
+                        item.map_err(invalid)?;
+                    }
+                }
+                Payload::CoreTypeSection(section) => {
+                    for item in section {
+                        item.map_err(invalid)?;
                     }
                 }
                 _ => {}

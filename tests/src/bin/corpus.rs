@@ -21,6 +21,9 @@ struct Cli {
     /// Also the cases that take long, up to minutes each
     #[arg(long)]
     long: bool,
+    /// Also the reason of each refusal and fault
+    #[arg(long)]
+    reasons: bool,
     /// Only this mode: `isolated` or `trusted`
     #[arg(long, value_name = "MODE", value_parser = mode)]
     mode: Option<Mode>,
@@ -33,7 +36,7 @@ struct Cli {
 }
 
 fn mode(name: &str) -> Result<Mode, String> {
-    [Mode::Isolated, Mode::Trusted]
+    Mode::ALL
         .into_iter()
         .find(|mode| mode.name() == name)
         .ok_or_else(|| "there are `isolated` and `trusted`".to_owned())
@@ -45,6 +48,10 @@ fn main() -> ExitCode {
         .into_iter()
         .filter(|case| is_meant(&cli, case))
         .collect();
+    if cases.is_empty() {
+        eprintln!("error: there is no such case; --long adds some");
+        return ExitCode::FAILURE;
+    }
     let outcome = match &cli.write {
         Some(folder) => write(folder, &cases).map(|()| true),
         None => play(&cli, &cases),
@@ -73,20 +80,16 @@ fn play(cli: &Cli, cases: &[Case]) -> io::Result<bool> {
     let program = cli.wasmouse.clone().unwrap_or_else(binary::path);
     let bench = Bench::new(&program)?;
     let is_meant = |mode: &Mode| cli.mode.is_none_or(|only| only == *mode);
-    let modes: Vec<Mode> = bench.modes().iter().copied().filter(is_meant).collect();
-    if modes.is_empty() {
-        return Err(io::Error::other("this program does not have the mode"));
-    }
     println!(
         "{:<6} {:<44} {:<9} {:<34} {:>6} {:>5} {:>5} {:>7}  ok",
         "number", "name", "mode", "verdict", "s", "MiB", "all", "ns/fuel"
     );
     let begin = Instant::now();
     let (mut count, mut bad) = (0, 0);
-    for mode in modes {
+    for mode in Mode::ALL.into_iter().filter(is_meant) {
         for case in cases {
             let judgement = bench.judge(case, mode)?;
-            print(case, mode, &judgement);
+            print(cli, case, mode, &judgement);
             count += 1;
             bad += usize::from(!judgement.is_well());
         }
@@ -98,7 +101,7 @@ fn play(cli: &Cli, cases: &[Case]) -> io::Result<bool> {
     Ok(bad == 0)
 }
 
-fn print(case: &Case, mode: Mode, judgement: &Judgement) {
+fn print(cli: &Cli, case: &Case, mode: Mode, judgement: &Judgement) {
     println!(
         "{:<6} {:<44} {:<9} {:<34} {:>6.2} {:>5} {:>5} {:>7}  {}",
         case.numbers_text(),
@@ -111,6 +114,9 @@ fn print(case: &Case, mode: Mode, judgement: &Judgement) {
         nanoseconds_per_fuel(judgement),
         if judgement.is_well() { "ok" } else { "NO" },
     );
+    if cli.reasons && !judgement.reason.is_empty() {
+        println!("       {}", judgement.reason);
+    }
     for problem in &judgement.problems {
         println!("       expected {}; {problem}", judgement.expected);
     }

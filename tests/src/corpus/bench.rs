@@ -29,7 +29,6 @@ const EXIT_ROBOT: i32 = 4;
 pub struct Bench {
     folder: TempDir,
     program: PathBuf,
-    modes: Vec<Mode>,
     /// What the good robot does alone, by the further arguments.
     alone: RefCell<BTreeMap<String, Vec<Value>>>,
 }
@@ -39,6 +38,8 @@ pub struct Bench {
 pub struct Judgement {
     /// In a few words.
     pub verdict: String,
+    /// Why the first robot was refused or failed, in the host's words; empty if neither.
+    pub reason: String,
     /// What was expected, in a few words.
     pub expected: String,
     /// How long it took.
@@ -69,25 +70,11 @@ impl Bench {
         if fs::hard_link(wasmouse, &program).is_err() {
             fs::copy(wasmouse, &program)?;
         }
-        let mut bench = Self {
+        Ok(Self {
             folder,
             program,
-            modes: vec![Mode::Trusted],
             alone: RefCell::default(),
-        };
-        let help = bench.run(
-            &["run", "--help"].map(str::to_owned),
-            Duration::from_secs(60),
-        )?;
-        if help.stdout.contains("--trust") {
-            bench.modes.insert(0, Mode::Isolated);
-        }
-        Ok(bench)
-    }
-
-    /// The modes that the program has.
-    pub fn modes(&self) -> &[Mode] {
-        &self.modes
+        })
     }
 
     /// Plays a case.
@@ -108,6 +95,7 @@ impl Bench {
 
         let mut judgement = Judgement {
             verdict: String::new(),
+            reason: String::new(),
             expected: in_few_words(&case.expected),
             time: measured.time,
             first_bytes: measured.first_bytes,
@@ -136,10 +124,10 @@ impl Bench {
         let files = case.files();
         let many = files.len() > 1;
         let names = files.iter().enumerate().map(|(at, file)| {
-            let name = if many {
-                format!("{}-{at:05}", case.name)
-            } else {
-                case.name.clone()
+            let name = match case.file_name {
+                _ if many => format!("{}-{at:05}", case.name),
+                Some(name) => name.to_owned(),
+                None => case.name.clone(),
             };
             fs::write(self.path(&name), file)?;
             Ok(name)
@@ -148,7 +136,7 @@ impl Bench {
     }
 
     fn path(&self, robot: &str) -> PathBuf {
-        self.folder.path().join(robot).with_extension("wasm")
+        self.folder.path().join(format!("{robot}.wasm"))
     }
 
     fn arguments(&self, case: &Case, mode: Mode) -> Vec<String> {
@@ -160,7 +148,7 @@ impl Bench {
         // One cache for the whole corpus and each mode: what a hostile robot leaves
         // there must not hurt those that come later.
         arguments.push(format!("--cache=cache-{}", mode.name()));
-        if mode == Mode::Trusted && self.modes.len() > 1 {
+        if mode == Mode::Trusted {
             arguments.push("--trust".into());
         }
         arguments
@@ -189,6 +177,10 @@ impl Bench {
     fn ceilings(&self, case: &Case, mode: Mode, measured: &Measured) -> Vec<String> {
         let mut problems = Vec::new();
         if measured.status.is_none() {
+            let (seconds, megabytes) = (measured.time.as_secs(), measured.all_bytes >> 20);
+            problems.push(format!("ended after {seconds} s at {megabytes} MiB"));
+        }
+        if measured.time > Duration::from_secs(case.seconds_max) {
             problems.push(format!("took more than {} s", case.seconds_max));
         }
         let mut ceiling = |what: &str, bytes: u64, max: u64| {
@@ -246,6 +238,7 @@ impl Judgement {
             }
         }
         self.verdict = in_few_words(&found);
+        self.reason = found.first().map(reason_of).unwrap_or_default();
         let exit = if is_robots_fault { EXIT_ROBOT } else { 0 };
         let status = measured.status.and_then(|status| status.code());
         if status != Some(exit) {
@@ -282,7 +275,7 @@ impl Judgement {
     fn harmless(&mut self, what: &str, text: &str) {
         let harmful = text.chars().find(|&character| {
             (character.is_control() && character != '\n')
-                || matches!(character, '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}' | '\u{fffd}')
+                || matches!(character, '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}')
         });
         if let Some(character) = harmful {
             self.problems
@@ -325,6 +318,12 @@ fn matches_of(document: &Value, name: &str) -> Vec<Value> {
 fn fuel_of(entry: &Value) -> u64 {
     let fuel = |name: &str| entry[name].as_u64().unwrap_or(0);
     fuel("start_fuel") + fuel("steps_fuel")
+}
+
+fn reason_of(entry: &Value) -> String {
+    let reason = entry["refusal"]["reason"].as_str();
+    let detail = entry["fault"]["detail"].as_str();
+    reason.or(detail).unwrap_or_default().to_owned()
 }
 
 /// The kinds of what became of robots, each once.

@@ -149,7 +149,7 @@ impl Endless {
         let mut case = Case::new(self.numbers, self.name, expected, move || self.component());
         case.megabytes_max = self.megabytes_max;
         case.is_long = self.is_long;
-        case.seconds(if self.is_long { 200 } else { 20 })
+        case.seconds(if self.is_long { 300 } else { 60 })
     }
 
     fn component(self) -> Vec<u8> {
@@ -181,5 +181,5 @@ fn fill_each_step() -> Case {
         .component()
     })
     .megabytes(LARGE.megabytes_max)
-    .seconds(30)
+    .seconds(60)
 }

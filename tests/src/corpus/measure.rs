@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 /// What a command did and needed.
 #[derive(Debug)]
 pub struct Measured {
-    /// How it ended; `None` when it was ended for taking too long.
+    /// How it ended; `None` when it was ended for taking too much.
     pub status: Option<ExitStatus>,
     /// What it printed.
     pub stdout: String,
@@ -35,6 +35,10 @@ pub struct Measured {
 /// How often memory is looked at. A process tells its peak itself, so a short one is
 /// not missed as long as its process lives on for that long.
 const SAMPLE: Duration = Duration::from_millis(2);
+
+/// More memory than this ends everything, whatever the caller's ceiling: the corpus
+/// must not take its machine with it.
+const BYTES_MAX: u64 = 6 << 30;
 
 /// How long processes may outlive the first.
 const GRACE: Duration = Duration::from_secs(2);
@@ -65,7 +69,7 @@ pub fn measure(
             break Some(status);
         }
         memory.sample(program, child.id());
-        if begin.elapsed() > time_max {
+        if begin.elapsed() > time_max || memory.all > BYTES_MAX {
             stop(program, &mut child)?;
             break None;
         }

@@ -117,7 +117,7 @@ fn memories() -> Vec<Case> {
             .component()
         })
         .megabytes(ALL_MEMORY)
-        .seconds(30),
+        .seconds(60),
     ]
 }
 
@@ -261,7 +261,7 @@ fn segments() -> Vec<Case> {
             // All but the one that every robot here has.
             with(MEMORY, &r#"(data (i32.const 99) "x")"#.repeat(99_999))
         })
-        .seconds(20),
+        .seconds(60),
         Case::new(
             &[33],
             "100001-data-segments",
@@ -274,7 +274,7 @@ fn segments() -> Vec<Case> {
                 .core()
             },
         )
-        .seconds(20),
+        .seconds(60),
         Case::new(
             &[33],
             "passive-segments-and-their-drops",

@@ -6,29 +6,62 @@
 //! (`cargo xtask corpus`) prints the table, or writes the files for other hosts.
 //! The numbers of the cases are those of the list that the corpus was written after.
 
+mod abi;
 mod bench;
+mod binary;
 mod case;
 mod costs;
 mod execution;
+mod files;
+mod game;
+mod inner;
 mod measure;
 mod memory;
+mod names;
+mod shape;
+mod types;
 
 pub use bench::{Bench, Judgement};
 pub use case::{Case, MEGABYTES_MAX, Mode};
 
 /// All cases, chapter by chapter.
 pub fn cases() -> Vec<Case> {
-    [execution::cases(), costs::cases(), memory::cases()]
-        .into_iter()
-        .flatten()
-        .collect()
+    [
+        execution::cases(),
+        costs::cases(),
+        memory::cases(),
+        abi::cases(),
+        inner::cases(),
+        files::cases(),
+        shape::cases(),
+        names::cases(),
+        types::cases(),
+        game::cases(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeSet;
+    use std::panic::AssertUnwindSafe;
 
     use super::*;
+
+    #[test]
+    fn every_case_has_files() {
+        let failed: Vec<String> = cases()
+            .into_iter()
+            .filter(|case| {
+                let files = std::panic::catch_unwind(AssertUnwindSafe(|| case.files()));
+                files.map_or(true, |files| files.is_empty())
+            })
+            .map(|case| case.name)
+            .collect();
+        assert_eq!(failed, [""; 0]);
+    }
 
     #[test]
     fn names_are_unique_and_fit_file_names() {

@@ -1,0 +1,326 @@
+//! Shape: modules and components that lack what a robot has, or have what it must not.
+
+use serde_json::Value;
+
+use super::case::{Case, refused};
+use crate::composite::{Composite, TYPES};
+use crate::module::{Module, START_PARAMETERS, wasm};
+
+/// The cases 54 and 58 to 60.
+pub fn cases() -> Vec<Case> {
+    [modules(), exports(), imports()]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+fn modules() -> Vec<Case> {
+    let module = |name: &str, reason: &str, text: String| {
+        Case::new(&[54], name, refused("core-module", reason), move || {
+            wasm(&text)
+        })
+    };
+    let start =
+        format!(r#"(func (export "wasmouse:robot/controller@0.1.0#start") {START_PARAMETERS})"#);
+    let importing = |import: &str| {
+        Module {
+            imports: import,
+            ..Module::default()
+        }
+        .wat()
+    };
+    vec![
+        module(
+            "empty-module",
+            "core module without component types that exports neither \
+             `wasmouse:robot/controller@0.1.0#start` nor \
+             `wasmouse:robot/controller@0.1.0#next-move`; it exports nothing",
+            "(module)".into(),
+        ),
+        module(
+            "module-without-next-move",
+            "core module without the export `wasmouse:robot/controller@0.1.0#next-move`",
+            format!(r#"(module (memory (export "memory") 1) {start})"#),
+        ),
+        module(
+            "module-without-memory",
+            "core module without the export `memory`",
+            Module {
+                memory: "(memory 1)",
+                ..Module::default()
+            }
+            .wat(),
+        ),
+        module(
+            "module-with-a-memory-that-is-a-function",
+            "...",
+            Module {
+                memory: r#"(memory 1) (func (export "memory"))"#,
+                ..Module::default()
+            }
+            .wat(),
+        ),
+        module(
+            "module-with-other-signatures",
+            "...",
+            r#"(module (memory (export "memory") 1)
+                (func (export "wasmouse:robot/controller@0.1.0#start"))
+                (func (export "wasmouse:robot/controller@0.1.0#next-move")
+                    (param i32 i32 i32) (result i32) i32.const 0))"#
+                .into(),
+        ),
+        module(
+            "module-that-imports-wasi",
+            "core module imports `fd_write` from `wasi_snapshot_preview1`, which no robot may \
+             import",
+            importing(
+                r#"(import "wasi_snapshot_preview1" "fd_write"
+                (func (param i32 i32 i32 i32) (result i32)))"#,
+            ),
+        ),
+        module(
+            "module-that-imports-an-intrinsic",
+            "core module imports `[waitable-set-new]` from `$root`, which no robot may import",
+            importing(r#"(import "$root" "[waitable-set-new]" (func (result i32)))"#),
+        ),
+        module(
+            "module-that-lowers-asynchronously",
+            "...",
+            importing(
+                r#"(import "wasmouse:robot/journal@0.1.0" "[async-lower]log"
+                (func (param i32 i32 i32) (result i32)))"#,
+            ),
+        ),
+        module(
+            "module-that-drops-resources-of-the-journal",
+            "...",
+            importing(
+                r#"(import "wasmouse:robot/journal@0.1.0" "[resource-drop]log"
+                (func (param i32)))"#,
+            ),
+        ),
+        module(
+            "module-that-imports-another-log",
+            "...",
+            importing(
+                r#"(import "wasmouse:robot/journal@0.1.0" "log"
+                (func (param i64)))"#,
+            ),
+        ),
+        module(
+            "module-that-imports-what-the-journal-lacks",
+            "...",
+            importing(r#"(import "wasmouse:robot/journal@0.1.0" "win" (func))"#),
+        ),
+        module(
+            "module-with-two-starts",
+            "...",
+            Module {
+                rest: &start,
+                ..Module::default()
+            }
+            .wat(),
+        ),
+    ]
+}
+
+/// A component with that text for another, which has to be there.
+fn changed(right: &'static str, wrong: &str) -> Vec<u8> {
+    let text = Composite::default().wat();
+    assert!(text.contains(right), "{right}");
+    wasm(&text.replace(right, wrong))
+}
+
+fn exports() -> Vec<Case> {
+    let other = |name: &str, expected: Value, right: &'static str, wrong: &'static str| {
+        Case::new(&[58], name, expected, move || changed(right, wrong))
+    };
+    let missing = |exports: &str| {
+        refused(
+            "no-controller",
+            &format!(
+                "the component does not export \
+            `wasmouse:robot/controller@0.1.0`; it exports {exports}"
+            ),
+        )
+    };
+    const EXPORT: &str = r#"(export "wasmouse:robot/controller@0.1.0" (instance $controller))"#;
+    const NEXT: &str = r#"(export "next-move" (func $next-move))"#;
+    let wrong_type = |reason: &str| {
+        refused(
+            "wrong-type",
+            &format!("the component does not fit the world `robot`: {reason}"),
+        )
+    };
+    vec![
+        Case::new(&[58], "empty-component", missing("nothing"), || {
+            wasm("(component)")
+        }),
+        other("controller-not-exported", missing("nothing"), EXPORT, ""),
+        other(
+            "controller-of-another-version",
+            missing("`wasmouse:robot/controller@0.2.0`"),
+            EXPORT,
+            r#"(export "wasmouse:robot/controller@0.2.0" (instance $controller))"#,
+        ),
+        other(
+            "controller-misspelt",
+            missing("`wasmouse:robot/controler@0.1.0`"),
+            EXPORT,
+            r#"(export "wasmouse:robot/controler@0.1.0" (instance $controller))"#,
+        ),
+        other(
+            "controller-of-a-later-patch",
+            missing("`wasmouse:robot/controller@0.1.1`"),
+            EXPORT,
+            r#"(export "wasmouse:robot/controller@0.1.1" (instance $controller))"#,
+        ),
+        other(
+            "controller-that-is-a-function",
+            wrong_type("`wasmouse:robot/controller@0.1.0` is not an interface"),
+            EXPORT,
+            r#"(export "wasmouse:robot/controller@0.1.0" (func $start))"#,
+        ),
+        other(
+            "controller-without-next-move",
+            wrong_type("`wasmouse:robot/controller@0.1.0` has no function `next-move`"),
+            NEXT,
+            "",
+        ),
+        other(
+            "next-move-renamed",
+            wrong_type("`wasmouse:robot/controller@0.1.0` has no function `next-move`"),
+            NEXT,
+            r#"(export "next_move" (func $next-move))"#,
+        )
+        .or(refused("invalid", "...")),
+        other(
+            "start-in-place-of-next-move",
+            wrong_type("the function `next-move` has another type: ..."),
+            NEXT,
+            r#"(export "next-move" (func $start))"#,
+        ),
+    ]
+}
+
+/// A robot whose component has more imports.
+fn importing(imports: &str) -> Vec<u8> {
+    Composite {
+        before: imports,
+        ..Composite::default()
+    }
+    .component()
+}
+
+fn imports() -> Vec<Case> {
+    let unknown = |numbers, name: &str, import: &str, text: &'static str| {
+        let reason = format!("the component imports `{import}`, which a robot does not get");
+        Case::new(
+            numbers,
+            name,
+            refused("unknown-import", &reason),
+            move || importing(text),
+        )
+    };
+    const LEVEL: &str = r#"(export "level" (type $the-level (eq $level)))"#;
+    const MESSAGE: &str = r#"(param "message" string)"#;
+    vec![
+        unknown(
+            &[59],
+            "import-of-wasi-cli",
+            "wasi:cli/environment@0.2.0",
+            r#"(import "wasi:cli/environment@0.2.0" (instance))"#,
+        )
+        .shown(),
+        unknown(
+            &[59],
+            "import-of-wasi-clocks",
+            "wasi:clocks/monotonic-clock@0.2.3",
+            r#"(import "wasi:clocks/monotonic-clock@0.2.3" (instance
+                (export "now" (func (result u64)))))"#,
+        ),
+        unknown(
+            &[59],
+            "import-of-wasi-sockets",
+            "wasi:sockets/tcp@0.2.0",
+            r#"(import "wasi:sockets/tcp@0.2.0" (instance))"#,
+        ),
+        unknown(
+            &[59],
+            "import-of-a-later-journal",
+            "wasmouse:robot/journal@0.2.0",
+            r#"(import "wasmouse:robot/journal@0.2.0" (instance))"#,
+        ),
+        Case::new(
+            &[59],
+            "log-of-another-type",
+            refused("wrong-type", "..."),
+            || {
+                wasm(
+                    r#"(component
+                (import "wasmouse:robot/journal@0.1.0" (instance (export "log" (func))))
+                (instance $empty)
+                (export "wasmouse:robot/controller@0.1.0" (instance $empty)))"#,
+                )
+            },
+        ),
+        Case::new(&[59], "log-of-lists", refused("wrong-type", "..."), || {
+            changed(MESSAGE, r#"(param "message" (list u8))"#)
+        }),
+        Case::new(
+            &[59],
+            "journal-with-one-function-more",
+            refused("wrong-type", "..."),
+            || changed(LEVEL, &format!(r#"{LEVEL} (export "win" (func))"#)),
+        ),
+        unknown(
+            &[60],
+            "import-of-a-function",
+            "now",
+            r#"(import "now" (func (result u64)))"#,
+        ),
+        unknown(
+            &[60],
+            "import-of-a-module",
+            "m",
+            r#"(import "m" (core module))"#,
+        ),
+        unknown(
+            &[60],
+            "import-of-a-component",
+            "c",
+            r#"(import "c" (component))"#,
+        ),
+        unknown(
+            &[60],
+            "import-of-an-instance",
+            "i",
+            r#"(import "i" (instance))"#,
+        ),
+        unknown(
+            &[60],
+            "import-of-a-type",
+            "t",
+            r#"(import "t" (type (sub resource)))"#,
+        ),
+        unknown(
+            &[60],
+            "import-by-address",
+            "url=<https://robots.example/a.wasm>",
+            r#"(import "url=<https://robots.example/a.wasm>" (func))"#,
+        ),
+        Case::new(
+            &[60],
+            "journal-that-is-a-module",
+            refused("wrong-type", "..."),
+            || {
+                wasm(&format!(
+                    r#"(component {TYPES}
+                (import "wasmouse:robot/journal@0.1.0" (core module))
+                (instance $empty)
+                (export "wasmouse:robot/controller@0.1.0" (instance $empty)))"#
+                ))
+            },
+        ),
+    ]
+}
