@@ -29,6 +29,7 @@ fn main() -> io::Result<()> {
     match role {
         "play" => worker::enter_play(&rules, move |_, sandbox| with(sandbox)),
         "compile" => worker::enter_compile(&rules.limits, move |_, sandbox| with(sandbox)),
+        "explain" => worker::enter_explain(&rules.limits, move |_, sandbox| with(sandbox)),
         other => Err(io::Error::other(format!("no role `{other}`"))),
     }
 }

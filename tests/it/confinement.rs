@@ -73,3 +73,11 @@ fn the_worker_that_plays_is_confined() {
 fn the_worker_that_compiles_is_confined() {
     check("compile", &[]);
 }
+
+#[test]
+fn the_worker_that_explains_is_confined() {
+    check(
+        "explain",
+        &["map executable memory", "make memory executable"],
+    );
+}

@@ -9,7 +9,8 @@ use wasmouse::contest::{Contest, ContestMaze, Entrant, Played};
 use wasmouse::maze::generate::GenSpec;
 use wasmouse::robot::bundled::find;
 use wasmouse::robot::{
-    Digest, Executable, HostError, Isolation, PATIENCE, Referee, Trust, Verdict, Workers,
+    Digest, Executable, Game, HostError, Isolation, PATIENCE, Recorder, Referee, Trust, Verdict,
+    Workers,
 };
 use wasmouse::sim::Ruleset;
 
@@ -211,4 +212,47 @@ fn refusals_are_the_same_in_workers() {
         assert_eq!(all(&there), all(&here));
     }
     assert_unharmed(&inside);
+}
+
+/// Where a robot fails is told in names, in workers as in this process, and names of any
+/// length and kind are only text.
+#[test]
+fn faults_are_explained_by_the_calls_in_progress() {
+    let hostile = format!("{}\u{1b}[31m", "x".repeat(10_000));
+    let robot = Module {
+        rest: &format!(
+            "(func $inner (@name \"plan\") unreachable)
+             (func $outer (@name {hostile:?}) call $inner)"
+        )
+        .replace("\\u{1b}", "\\1b"),
+        next: "call $outer i32.const 16",
+        ..Module::default()
+    };
+    let bytes = robot.component();
+    let mazes: GenSpec = "gen:braid:12:1".parse().expect("a specification");
+    let (_, maze) = mazes.expand().next().expect("one maze");
+    let rules = Ruleset::default();
+    let game = Game {
+        maze: &maze,
+        rules: &rules,
+        seed: 0,
+        setting: 0,
+    };
+    let referee = real();
+    let explained = [Trust::Trusted, Trust::Stranger].map(|trust| {
+        let player = referee.admit(&bytes, trust).expect("the host works");
+        let player = player.unwrap_or_else(|refusal| panic!("refused: {refusal}"));
+        let mut recorder = Recorder::default();
+        let outcome = referee.record(&player, &game, &mut recorder);
+        let Verdict::Fault(fault) = outcome.expect("the host works").verdict else {
+            panic!("no fault");
+        };
+        let frames = referee.explain(&player, &bytes, &game, &fault);
+        frames.expect("the host works").expect("the same fault")
+    });
+    assert_eq!(explained[0], explained[1]);
+    let functions: Vec<&str> = explained[0].iter().map(|it| it.function.as_str()).collect();
+    assert_eq!(functions[0], "plan");
+    assert_eq!(functions[1], "x".repeat(160));
+    assert_eq!(functions.len(), 3, "{functions:?}");
 }

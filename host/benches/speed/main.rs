@@ -5,6 +5,7 @@
 
 mod boundary;
 mod contest;
+mod fuel;
 mod matches;
 mod mazes;
 mod native;
@@ -22,7 +23,10 @@ fn main() {
     matches::bench(&mut criterion);
     contest::bench(&mut criterion);
     criterion.final_summary();
-    if targets::are_wanted() {
+    if targets::are_wanted("targets") {
         targets::print();
+    }
+    if targets::are_wanted("fuel") {
+        fuel::print();
     }
 }

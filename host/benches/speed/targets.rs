@@ -19,13 +19,11 @@ use super::{native, process, stage};
 /// Matches after which the memory may not have grown.
 const MATCHES: u32 = 100_000;
 
-/// Whether this is a run of everything, or of the targets alone
+/// Whether this is a run of everything, or of the table of that name alone
 /// (`cargo bench -- targets`): not of a choice of benchmarks, nor a test of them.
-pub fn are_wanted() -> bool {
+pub fn are_wanted(table: &str) -> bool {
     let arguments: Vec<String> = env::args().skip(1).collect();
-    arguments
-        .iter()
-        .all(|it| it == "--bench" || it == "targets")
+    arguments.iter().all(|it| it == "--bench" || it == table)
         && arguments.iter().any(|it| it == "--bench")
 }
 

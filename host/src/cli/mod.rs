@@ -17,6 +17,7 @@ mod build;
 mod completions;
 mod demo;
 mod exit;
+mod explain;
 mod failure;
 mod inspect;
 mod interrupt;

@@ -12,7 +12,7 @@ use super::mazes::{self, Legality};
 use super::output::{self, Existing};
 use super::robots::{self, Specification};
 use super::setup::{IsolationArgs, SetupArgs};
-use super::{interrupt, journal, page, terminal, watch};
+use super::{explain, interrupt, journal, page, terminal, watch};
 use crate::contest::{Contest, ContestMaze, Entrant, MatchResult, Played, standings};
 use crate::maze::bundled as bundled_mazes;
 use crate::report::result::ContestReport;
@@ -120,6 +120,9 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         journal::print(&contest, &referee, &played.results)?;
     }
     args.report(&contest, &referee, &played)?;
+    if !args.json {
+        explain::tell(&contest, &referee, &specifications, &played.results)?;
+    }
     Ok(exit(&contest, &played))
 }
 

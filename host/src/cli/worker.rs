@@ -18,6 +18,8 @@ enum Role {
     Compile,
     /// Play matches
     Play,
+    /// Play one match and say where the robot fails
+    Explain,
 }
 
 /// Runs the command.
@@ -25,6 +27,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     let served = match args.role {
         Role::Compile => worker::compile_main(),
         Role::Play => worker::play_main(),
+        Role::Explain => worker::explain_main(),
     };
     match served {
         Ok(()) => Ok(Exit::Success),

@@ -211,8 +211,13 @@ impl Contest {
         let Ok(player) = &self.entrants[result.entrant].admission else {
             return Ok(None);
         };
-        let game = self.game(result.entrant, (result.maze, result.seed));
+        let game = self.game_of(result);
         referee.record(player, &game, recorder).map(Some)
+    }
+
+    /// The match of a result.
+    pub fn game_of(&self, result: &MatchResult) -> Game<'_> {
+        self.game(result.entrant, (result.maze, result.seed))
     }
 
     fn game(&self, entrant: usize, (maze, seed): (usize, u64)) -> Game<'_> {

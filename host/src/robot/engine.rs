@@ -4,12 +4,15 @@
 //! file and on the version of wasmtime alone; both are in [`engine_id`], which
 //! goes into every result.
 
+use std::num::NonZeroUsize;
 use std::thread;
 use std::time::Duration;
 
-use wasmtime::{Config, Enabled, Engine, InstanceAllocationStrategy, PoolingAllocationConfig};
+use wasmtime::{
+    Config, Enabled, Engine, EngineWeak, InstanceAllocationStrategy, PoolingAllocationConfig,
+};
 
-use super::HostError;
+use super::{HostError, backtrace};
 use crate::sim::Limits;
 
 /// The exact version of wasmtime in `Cargo.toml`; a test compares the two.
@@ -56,6 +59,19 @@ pub fn engine_config(limits: &Limits, matches: u32) -> Config {
     let mut config = compiler_config(limits);
     config.allocation_strategy(InstanceAllocationStrategy::Pooling(pool(limits, matches)));
     config
+}
+
+/// An engine for one match at a time that knows, when a robot fails, where in its code
+/// it was. Fuel and verdicts are those of [`new_engine`]; its code is larger.
+///
+/// # Errors
+///
+/// When the machine cannot give the address space for the pool.
+pub(super) fn new_explainer(limits: &Limits) -> Result<Engine, HostError> {
+    let mut config = engine_config(limits, 1);
+    config.wasm_backtrace_max_frames(NonZeroUsize::new(backtrace::FRAMES_MAX));
+    config.generate_address_map(true);
+    Engine::new(&config).map_err(HostError::engine)
 }
 
 /// An engine that compiles and runs nothing: its code is that of [`new_engine`], but
@@ -146,24 +162,33 @@ fn bytes(limit: u64) -> usize {
     usize::try_from(limit).unwrap_or(usize::MAX)
 }
 
-/// Starts the thread that advances the epoch for as long as the engine lives.
-///
-/// # Errors
-///
-/// When the machine gives no thread.
-pub(super) fn start_clock(engine: &Engine) -> Result<(), HostError> {
-    let engine = engine.weak();
-    thread::Builder::new()
-        .name("epoch-clock".into())
-        .spawn(move || {
-            while let Some(engine) = engine.upgrade() {
-                engine.increment_epoch();
-                drop(engine);
-                thread::sleep(EPOCH);
-            }
-        })
-        .map_err(HostError::thread)?;
-    Ok(())
+/// What advances the epoch for as long as the engine lives.
+pub(super) struct Clock(EngineWeak);
+
+impl Clock {
+    /// The clock of that engine.
+    pub(super) fn of(engine: &Engine) -> Self {
+        Self(engine.weak())
+    }
+
+    /// Starts its thread.
+    ///
+    /// # Errors
+    ///
+    /// When the machine gives no thread.
+    pub(super) fn start(self) -> Result<(), HostError> {
+        thread::Builder::new()
+            .name("epoch-clock".into())
+            .spawn(move || {
+                while let Some(engine) = self.0.upgrade() {
+                    engine.increment_epoch();
+                    drop(engine);
+                    thread::sleep(EPOCH);
+                }
+            })
+            .map_err(HostError::thread)?;
+        Ok(())
+    }
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use wasmtime::component::{Component, InstancePre, Linker};
 use wasmtime::{Engine, Store};
 
 use super::bindings::RobotPre;
+use super::engine::Clock;
 use super::guest::{self, Guest};
 use super::{Cache, Digest, HostError, Refusal, admission, controller, engine, over_limit};
 use crate::sim::Limits;
@@ -56,7 +57,7 @@ impl Host {
     /// ```
     pub fn new(limits: Limits, matches: u32, cache: Option<Cache>) -> Result<Self, HostError> {
         let host = Self::without_clock(limits, matches, cache)?;
-        host.start_clock()?;
+        host.clock().start()?;
         Ok(host)
     }
 
@@ -68,18 +69,31 @@ impl Host {
         cache: Option<Cache>,
     ) -> Result<Self, HostError> {
         let engine = engine::new_engine(&limits, matches.max(1))?;
-        let linker = guest::linker(&engine)?;
+        Self::with_engine(engine, limits, cache)
+    }
+
+    /// A host for one match at a time that records where a robot was when it failed
+    /// ([`Recorder::frames`](super::Recorder)). Its clock does not run yet.
+    pub(super) fn explaining(limits: Limits) -> Result<Self, HostError> {
+        Self::with_engine(engine::new_explainer(&limits)?, limits, None)
+    }
+
+    fn with_engine(
+        engine: Engine,
+        limits: Limits,
+        cache: Option<Cache>,
+    ) -> Result<Self, HostError> {
         Ok(Self {
+            linker: guest::linker(&engine)?,
             engine,
-            linker,
             cache,
             limits,
         })
     }
 
-    /// Starts the clock that ends matches of a host that stands still.
-    pub(super) fn start_clock(&self) -> Result<(), HostError> {
-        engine::start_clock(&self.engine)
+    /// The clock that ends matches of a host that stands still, before it runs.
+    pub(super) fn clock(&self) -> Clock {
+        Clock::of(&self.engine)
     }
 
     /// A robot from compiled code, for a worker.

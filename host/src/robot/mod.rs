@@ -12,6 +12,7 @@ pub mod componentize;
 pub mod worker;
 
 mod admission;
+mod backtrace;
 mod bindings;
 mod cache;
 mod code;
@@ -31,6 +32,7 @@ mod referee;
 mod refusal;
 mod shape;
 
+pub use backtrace::Frame;
 pub use cache::Cache;
 pub use digest::Digest;
 pub use engine::{ENGINE_REVISION, MATCH_SECONDS_MAX, WASMTIME_VERSION, engine_config, engine_id};

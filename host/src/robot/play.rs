@@ -12,7 +12,7 @@ use super::bindings::{self, Robot as RobotInstance};
 use super::fault::{FuelLimit, classify};
 use super::guest::Guest;
 use super::limiter::Limiter;
-use super::{Digest, Fault, FaultKind, Host, HostError, Journal, Robot, engine};
+use super::{Digest, Fault, FaultKind, Frame, Host, HostError, Journal, Robot, backtrace, engine};
 use crate::maze::Maze;
 use crate::sim::{Action, Counts, End, Ruleset, Run, Score, Simulation, Trace};
 
@@ -40,6 +40,9 @@ pub struct Recorder {
     /// Fuel of every step, in order; one more than the trace has when the last
     /// call ended in a fault.
     pub step_fuel: Vec<u64>,
+    /// Where in its code the robot was when it failed, the innermost call first; empty
+    /// unless the host was made to explain.
+    pub frames: Vec<Frame>,
 }
 
 impl Recorder {
@@ -162,6 +165,7 @@ impl Host {
         );
         let limits = &game.rules.limits;
         recorder.step_fuel.clear();
+        recorder.frames.clear();
         recorder.journal.clear(limits.journal_bytes_max);
         let guest = Guest {
             limiter: Limiter::new(limits),
@@ -173,6 +177,7 @@ impl Host {
         let mut runner = Runner::new(self.store(guest), game, &mut recorder.step_fuel);
         let verdict = runner.run(robot, &mut simulation);
         let fuel = runner.fuel;
+        recorder.frames = runner.frames;
         recorder.journal = runner.store.into_data().journal;
         Ok(Outcome {
             verdict: verdict?,
@@ -194,6 +199,8 @@ struct Runner<'a> {
     fuel: FuelUse,
     /// What is left of the match's fuel.
     match_fuel: u64,
+    /// Where the call that ended without an answer was.
+    frames: Vec<Frame>,
 }
 
 /// A call ended without an answer, by the robot's own doing.
@@ -217,6 +224,7 @@ impl<'a> Runner<'a> {
             step_fuel,
             fuel: FuelUse::default(),
             match_fuel: limits.match_fuel_max,
+            frames: Vec::new(),
         }
     }
 
@@ -308,6 +316,7 @@ impl<'a> Runner<'a> {
                     FuelLimit::Match => self.game.rules.limits.match_fuel_max,
                     FuelLimit::Start | FuelLimit::Step => fuel,
                 };
+                self.frames = backtrace::frames(&error);
                 let (kind, detail) = classify(&error, (limit, told))?;
                 Err(Stop { kind, detail })
             }

@@ -8,7 +8,8 @@ use std::sync::OnceLock;
 
 use super::worker::{RemoteRobot, Sandbox, Supervisor, Workers};
 use super::{
-    Cache, CacheUse, Digest, Game, Host, HostError, Inspection, Outcome, Recorder, Refusal, Robot,
+    Cache, CacheUse, Digest, Fault, Frame, Game, Host, HostError, Inspection, Outcome, Recorder,
+    Refusal, Robot, Verdict,
 };
 use crate::sim::Ruleset;
 
@@ -180,6 +181,41 @@ impl Referee {
                 let supervisor = self.supervisor()?.ok_or_else(HostError::stranger)?;
                 let record = supervisor.record(robot, game, recorder)?;
                 Ok(record.outcome)
+            }
+        }
+    }
+
+    /// Where in its code a robot is when it fails in that match, the innermost call
+    /// first; `None` when that cannot be found out. `bytes` is the file that was
+    /// admitted.
+    ///
+    /// # Errors
+    ///
+    /// When the host fails.
+    pub fn explain(
+        &self,
+        player: &Player,
+        bytes: &[u8],
+        game: &Game<'_>,
+        fault: &Fault,
+    ) -> Result<Option<Vec<Frame>>, HostError> {
+        match player {
+            Player::Local(_) => {
+                let host = Host::explaining(self.rules.limits)?;
+                host.clock().start()?;
+                let Ok(robot) = host.admit(bytes) else {
+                    return Ok(None);
+                };
+                let mut recorder = Recorder::default();
+                let outcome = host.play(&robot, game, &mut recorder)?;
+                Ok(match outcome.verdict {
+                    Verdict::Fault(again) if again == *fault => Some(recorder.frames),
+                    _ => None,
+                })
+            }
+            Player::Remote(_) => {
+                let supervisor = self.supervisor()?.ok_or_else(HostError::stranger)?;
+                supervisor.explain(bytes, game, fault)
             }
         }
     }

@@ -1,11 +1,10 @@
 //! The worker that compiles one file: [`main`].
 
 use std::io::{self, Write as _};
-use std::sync::mpsc;
-use std::thread;
 
 use wasmtime::Engine;
 
+use super::begin::confined;
 use super::confine::{self, Role};
 use super::matches::read_exactly;
 use super::pipes::Pipes;
@@ -15,7 +14,7 @@ use crate::robot::{Digest, HostError, Refusal, admission, engine, inspection, ov
 use crate::sim::Limits;
 
 /// Stack of the threads that read and compile: nested things recurse.
-const STACK_BYTES: usize = 16 << 20;
+pub(super) const STACK_BYTES: usize = 16 << 20;
 
 /// Compiles the file on standard input and ends.
 ///
@@ -55,27 +54,20 @@ where
     confine::set_limits(Role::Compile);
     let failed = |error: HostError| io::Error::other(error.to_string());
     let engine = engine::new_compiler(limits).map_err(failed)?;
-    let landlock = confine::forbid_files();
-    // Threads begin before they are forbidden too, and after what holds only for
-    // threads that begin later.
+    confined(
+        Role::Compile,
+        STACK_BYTES,
+        start_compilers,
+        move |sandbox| work(&engine, sandbox),
+    )
+}
+
+/// Starts the threads that wasmtime compiles on.
+pub(super) fn start_compilers() -> io::Result<()> {
     rayon::ThreadPoolBuilder::new()
         .stack_size(STACK_BYTES)
         .build_global()
-        .map_err(io::Error::other)?;
-    let (confined, wait) = mpsc::sync_channel(1);
-    let worker = thread::Builder::new()
-        .name("compile".into())
-        .stack_size(STACK_BYTES)
-        .spawn(move || match wait.recv() {
-            Ok(sandbox) => work(&engine, sandbox),
-            Err(_) => Ok(()),
-        })?;
-    let seccomp = confine::forbid_system_calls(Role::Compile);
-    // The receiver waits for nothing else.
-    let _ = confined.send(Sandbox { landlock, seccomp });
-    worker
-        .join()
-        .unwrap_or_else(|_| Err(io::Error::other("the thread that compiles panicked")))
+        .map_err(io::Error::other)
 }
 
 /// What the file is, and its compiled code where that was wanted and can be had.

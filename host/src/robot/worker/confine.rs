@@ -11,6 +11,8 @@ pub enum Role {
     Compile,
     /// Runs compiled robots.
     Play,
+    /// Compiles one robot and plays one match with it, to say where it fails.
+    Explain,
 }
 
 impl Role {
@@ -19,6 +21,7 @@ impl Role {
         match self {
             Self::Compile => "compile",
             Self::Play => "play",
+            Self::Explain => "explain",
         }
     }
 }
@@ -76,6 +79,10 @@ mod unix {
     /// ruleset gives a robot more memory.
     const MEMORY_FILE_BYTES: u64 = 1 << 30;
 
+    /// Memory that a worker with a pool may write, in bytes: a robot's, compiled code,
+    /// and what a compiler takes.
+    const PLAY_MEMORY_BYTES: u64 = 4 << 30;
+
     use super::{COMPILE_CPU_SECONDS, COMPILE_MEMORY_BYTES, Role};
 
     /// Limits the process by the operating system. What cannot be limited stays
@@ -84,15 +91,16 @@ mod unix {
         // No core may be written, and few descriptors are needed.
         limit(Resource::Core, 0, 0);
         limit(Resource::Nofile, 64, 64);
-        let file_bytes = match role {
-            Role::Compile => 0,
-            Role::Play => MEMORY_FILE_BYTES,
-        };
-        limit(Resource::Fsize, file_bytes, file_bytes);
-        // A pool of instances reserves terabytes of address space without using
-        // them, so only the compiler can be limited by that.
         if role == Role::Compile {
+            limit(Resource::Fsize, 0, 0);
             limit(Resource::As, COMPILE_MEMORY_BYTES, COMPILE_MEMORY_BYTES);
+        } else {
+            // A pool of instances reserves terabytes of address space without using
+            // them, so what can be written is limited instead.
+            limit(Resource::Fsize, MEMORY_FILE_BYTES, MEMORY_FILE_BYTES);
+            limit(Resource::Data, PLAY_MEMORY_BYTES, PLAY_MEMORY_BYTES);
+        }
+        if role != Role::Play {
             // The first limit ends it by a signal of its own, which tells the
             // supervisor why; the second one kills.
             limit(Resource::Cpu, COMPILE_CPU_SECONDS, COMPILE_CPU_SECONDS + 5);

@@ -117,28 +117,16 @@ fn rules(role: Role) -> Option<BTreeMap<i64, Vec<SeccompRule>>> {
     // An abort signals the process itself.
     let own = u64::from(process::id());
     rules.insert(libc::SYS_tgkill, vec![when(&[(0, SeccompCmpOp::Eq, own)])?]);
-    let protections = match role {
-        // Compiled code is written elsewhere than it runs.
-        Role::Compile => vec![protection(0)?],
-        // Compiled code is made executable, but never while it can be written.
-        Role::Play => vec![
-            protection(0)?,
-            protection(libc::PROT_WRITE)?,
-            protection(libc::PROT_EXEC)?,
-        ],
-    };
-    for call in [libc::SYS_mmap, libc::SYS_mprotect] {
-        let any_but_executable = match role {
-            Role::Compile => vec![when(&[(
-                2,
-                SeccompCmpOp::MaskedEq(bits(libc::PROT_EXEC)),
-                0,
-            )])?],
-            Role::Play => protections.clone(),
-        };
-        rules.insert(call, any_but_executable);
+    // Memory may be written, or executed, but never both; and compiled code is written
+    // elsewhere than it runs.
+    let mut protections = vec![protection(0)?, protection(libc::PROT_WRITE)?];
+    if role != Role::Compile {
+        protections.push(protection(libc::PROT_EXEC)?);
     }
-    if role == Role::Play {
+    for call in [libc::SYS_mmap, libc::SYS_mprotect] {
+        rules.insert(call, protections.clone());
+    }
+    if role != Role::Compile {
         for call in MEMORY_FILES {
             rules.insert(call, Vec::new());
         }
@@ -177,7 +165,7 @@ mod tests {
 
     #[test]
     fn both_filters_can_be_made() {
-        for role in [Role::Compile, Role::Play] {
+        for role in [Role::Compile, Role::Play, Role::Explain] {
             assert!(filter(role).is_some(), "{role:?}");
         }
     }

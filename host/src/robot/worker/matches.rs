@@ -1,10 +1,9 @@
 //! The worker that plays: [`main`].
 
 use std::io::{self, BufWriter, Read, Write};
-use std::sync::mpsc;
-use std::thread;
 use std::time::{Duration, Instant};
 
+use super::begin::confined;
 use super::confine::{self, Role};
 use super::pipes::Pipes;
 use super::wire::{
@@ -79,24 +78,11 @@ where
     let failed = |error: HostError| io::Error::other(error.to_string());
     // The engine opens a file of its own, so it comes before all are forbidden.
     let host = Host::without_clock(rules.limits, 1, None).map_err(failed)?;
-    let landlock = confine::forbid_files();
-    // Threads begin before they are forbidden too, and after what holds only for
-    // threads that begin later.
-    host.start_clock().map_err(failed)?;
-    let (confined, wait) = mpsc::sync_channel(1);
-    let worker = thread::Builder::new()
-        .name("matches".into())
-        .stack_size(STACK_BYTES)
-        .spawn(move || match wait.recv() {
-            Ok(sandbox) => work(host, sandbox),
-            Err(_) => Ok(()),
-        })?;
-    let seccomp = confine::forbid_system_calls(Role::Play);
-    // The receiver waits for nothing else.
-    let _ = confined.send(Sandbox { landlock, seccomp });
-    worker
-        .join()
-        .unwrap_or_else(|_| Err(io::Error::other("the thread that plays panicked")))
+    let clock = host.clock();
+    let threads = move || clock.start().map_err(failed);
+    confined(Role::Play, STACK_BYTES, threads, move |sandbox| {
+        work(host, sandbox)
+    })
 }
 
 /// What the worker keeps between requests.

@@ -1,28 +1,35 @@
 //! [`Supervisor`]: admits strangers' robots and has them play, without compiling,
 //! loading or running anything of theirs itself.
 
-use std::io;
+use std::io::{self, Write as _};
 use std::ops::ControlFlow;
 use std::sync::Arc;
+use std::time::Duration;
 
 use wasmtime::Engine;
 
+use super::Role;
 use super::compiler::{Compiler, Findings, Wanted};
+use super::confine::COMPILE_CPU_SECONDS;
 use super::keeper::Keeper;
 use super::pool::{PlayWorker, Pool};
-use super::process::{Death, Starter, Workers};
+use super::process::{Death, Process, Starter, Workers};
 use super::replay::replay;
-use super::wire::{Compiled, Loaded, Sandbox, ToldRefusal};
+use super::wire::{Compiled, ExplainOrder, Explained, Loaded, Sandbox, ToldRefusal};
+use crate::robot::backtrace::FRAMES_MAX;
 use crate::robot::code::{Code, Destination};
 use crate::robot::referee::Each;
 use crate::robot::{
-    Cache, CacheUse, Digest, Fault, FaultKind, FuelUse, Game, HostError, Inspection, Needs,
+    Cache, CacheUse, Digest, Fault, FaultKind, Frame, FuelUse, Game, HostError, Inspection, Needs,
     Outcome, Phase, Record, Recorder, Refusal, Verdict, engine,
 };
 use crate::sim::{Counts, Ruleset, Run};
 
 /// Matches in one message, at most: fewer than the mazes that a worker keeps.
 const BATCH_MAX: usize = 64;
+
+/// What an explanation may take on the wall clock.
+const EXPLAIN_TIME_MAX: Duration = Duration::from_secs(2 * COMPILE_CPU_SECONDS);
 
 /// How often a match is tried whose worker ends for reasons that may not be the
 /// robot's.
@@ -198,6 +205,48 @@ impl Supervisor {
             Ok(record) => record,
             Err(_) => self.play_alone(robot, (game, true), recorder),
         }
+    }
+
+    /// Where in its code a robot is when it fails in that match, the innermost call first;
+    /// `None` when it does not fail so again or that cannot be found out.
+    ///
+    /// # Errors
+    ///
+    /// When the machine gives no process.
+    pub fn explain(
+        &self,
+        bytes: &[u8],
+        game: &Game<'_>,
+        fault: &Fault,
+    ) -> Result<Option<Vec<Frame>>, HostError> {
+        let mut process = Process::start(&self.starter, Role::Explain)?;
+        process.expect_within(EXPLAIN_TIME_MAX);
+        let explained = (|| -> io::Result<Explained> {
+            process.send(&ExplainOrder {
+                rules: self.rules,
+                maze: game.maze.identity_bytes(),
+                seed: game.seed,
+                setting: game.setting,
+                length: u64::try_from(bytes.len()).unwrap_or(u64::MAX),
+            })?;
+            process.writer().write_all(bytes)?;
+            process.flush()?;
+            let sandbox = process.greet()?;
+            if !self.starter.may_use(sandbox) {
+                return Err(io::ErrorKind::PermissionDenied.into());
+            }
+            process.receive()
+        })();
+        // An explanation is a courtesy: whatever went wrong, the verdict stands.
+        Ok(match explained {
+            Ok(Explained {
+                fault: Some((kind, frames)),
+            }) if kind == fault.kind => {
+                let frames = frames.into_iter().take(FRAMES_MAX);
+                Some(frames.map(Frame::checked).collect())
+            }
+            _ => None,
+        })
     }
 
     /// Plays a batch. A match whose worker ends is played again alone in a fresh one.
@@ -456,14 +505,14 @@ fn crashed(death: &Death, game: &Game<'_>, recorder: &mut Recorder) -> Record {
 
 fn play_failed(reason: String) -> HostError {
     HostError::Worker {
-        role: super::Role::Play.name(),
+        role: Role::Play.name(),
         reason,
     }
 }
 
 fn compile_failed(reason: String) -> HostError {
     HostError::Worker {
-        role: super::Role::Compile.name(),
+        role: Role::Compile.name(),
         reason,
     }
 }

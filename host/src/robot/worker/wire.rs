@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use crate::maze::{Cell, Heading};
 use crate::robot::componentize::BinaryKind;
 use crate::robot::{
-    Belief, Color, Digest, FaultKind, FuelUse, Level, Needs, Phase, Shape, engine_id,
+    Belief, Color, Digest, FaultKind, Frame, FuelUse, Level, Needs, Phase, Shape, engine_id,
 };
 use crate::sim::{Action, Limits, Ruleset};
 
@@ -208,6 +208,26 @@ pub(super) enum Compiled {
     Refused(ToldRefusal),
     /// The worker could not work.
     Failed(String),
+}
+
+/// The only frame to a worker that explains; the file follows.
+#[derive(Serialize, Deserialize)]
+pub(super) struct ExplainOrder {
+    /// The rules of the match.
+    pub(super) rules: Ruleset,
+    /// The identity bytes of the maze.
+    pub(super) maze: Vec<u8>,
+    pub(super) seed: u64,
+    pub(super) setting: u32,
+    /// Bytes that follow.
+    pub(super) length: u64,
+}
+
+/// Where a robot fails, from a worker that explains, after its [`Hello`].
+#[derive(Serialize, Deserialize)]
+pub(super) struct Explained {
+    /// The kind of fault that it ends in, with where.
+    pub(super) fault: Option<(FaultKind, Vec<Frame>)>,
 }
 
 /// A refusal in words.
