@@ -3,7 +3,7 @@
 //! The macro emits the component's exports only when compiled to WebAssembly,
 //! so that a native test or benchmark can link many robots side by side.
 
-use crate::{Action, Briefing, Sensors};
+use crate::{Action, Briefing, Map, Sensors};
 
 /// A controller that drives one match.
 ///
@@ -44,6 +44,13 @@ pub trait Robot: Sized + 'static {
 
     /// Answers the readings at the current cell and heading. Called once a step.
     fn next_move(&mut self, sensors: Sensors) -> Action;
+
+    /// What the robot knows about the walls, for tests: a native match holds it
+    /// against the maze after every answer (`testing::MapAudit`). No part of the
+    /// component. `None` by default, of a robot without a map or that shows none.
+    fn map(&self) -> Option<&Map> {
+        None
+    }
 }
 
 /// Exports a type that implements [`Robot`] as a component.

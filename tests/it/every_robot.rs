@@ -1,5 +1,6 @@
 //! What holds for every bundled robot in every setting: natively it plays the match
-//! that its component plays, and it finishes legal mazes unless it is known not to.
+//! that its component plays, its map never contradicts the maze, and it finishes legal
+//! mazes unless it is known not to.
 
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
@@ -7,7 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use wasmouse::contest::{Contest, ContestMaze, Entrant, STUDY_SEEDS, study_families};
-use wasmouse::maze::format;
+use wasmouse::maze::format::{self, Format};
 use wasmouse::maze::{self, Maze};
 use wasmouse::robot::bundled::{BundledRobot, bundled};
 use wasmouse::robot::{
@@ -48,6 +49,12 @@ const MAY_FAIL: &[(&str, Option<&str>)] = &[
     ("wall-follower", None),
 ];
 
+/// Who has no map to show, or shows none.
+const WITHOUT_MAP: &[&str] = &["champion", "random", "wall-follower"];
+
+/// Walls that every robot with a map knows at the end of a match in any legal maze.
+const KNOWN_WALLS_MIN: u32 = 40;
+
 /// Fuel of a match beyond which a robot counts as slow: unoptimised, as in these
 /// tests, it plays natively for many seconds, and a sample of mazes has to do.
 const SLOW_FUEL: u64 = 200_000_000;
@@ -62,17 +69,17 @@ fn every_bundled_robot_is_in_the_table() {
     );
 }
 
+/// In the bundled mazes and in a generated one of each family and size.
 #[test]
 fn natively_robots_play_the_match_of_their_component() {
-    let rules = Ruleset::default();
+    let (mazes, rules) = (mazes(), Ruleset::default());
     let host = Host::new(rules.limits, 1, None).expect("address space for one match");
     for (robot, (_, native)) in bundled().iter().zip(NATIVE) {
         let component = host.admit(robot.component).expect("an admitted robot");
         for (setting, name) in settings(robot) {
-            for bundled_maze in maze::bundled() {
-                let maze = format::parse(bundled_maze.text).expect("a maze").maze;
+            for (maze_name, text, maze) in &mazes {
                 let game = Game {
-                    maze: &maze,
+                    maze,
                     rules: &rules,
                     seed: 1,
                     setting,
@@ -84,9 +91,9 @@ fn natively_robots_play_the_match_of_their_component() {
                     setting,
                     ..sdk_arena::options(&rules, game.seed)
                 };
-                let played = native(bundled_maze.text, &options);
-                let place = format!("{}:{name} in {}", robot.name, bundled_maze.name);
-                check_same(&maze, &played, &outcome, &recorder.trace, &place);
+                let played = native(text, &options);
+                let place = format!("{}:{name} in {maze_name}", robot.name);
+                check_same(maze, &played, &outcome, &recorder.trace, &place);
                 if outcome.fuel.steps > SLOW_FUEL {
                     println!("skipped: {place} is slow; the mazes after it are left out");
                     break;
@@ -94,6 +101,44 @@ fn natively_robots_play_the_match_of_their_component() {
             }
         }
     }
+}
+
+/// What a robot believes about a wall, seen or inferred, is true after every step of
+/// every match; and it knows something.
+#[test]
+fn no_map_contradicts_the_maze() {
+    let mazes = mazes();
+    for (robot, (_, native)) in bundled().iter().zip(NATIVE) {
+        for (setting, name) in settings(robot) {
+            for (maze_name, text, _) in &mazes {
+                let place = format!("{}:{name} in {maze_name}", robot.name);
+                let played = native(text, &PlayOptions::of_setting(setting));
+                if WITHOUT_MAP.contains(&robot.name) {
+                    assert_eq!(played.map, None, "{place}: strike it off `WITHOUT_MAP`");
+                    break;
+                }
+                let audit = played.map.expect("a map, or a place in `WITHOUT_MAP`");
+                assert_eq!(audit.first_error, None, "{place}");
+                assert!(audit.known >= KNOWN_WALLS_MIN, "{place}: {audit:?}");
+            }
+        }
+    }
+}
+
+/// The bundled mazes, and one of each family and size of the study.
+fn mazes() -> Vec<(String, String, Maze)> {
+    let first = *STUDY_SEEDS.start();
+    let families = study_families(first..=first);
+    let generated = families.into_iter().flat_map(|it| it.expand());
+    let generated = generated.map(|(name, maze)| {
+        let text = format::print(&maze, Format::Udacity).expect("a contest maze");
+        (name, text, maze)
+    });
+    let bundled = maze::bundled().iter().map(|bundled| {
+        let maze = format::parse(bundled.text).expect("a maze").maze;
+        (bundled.name.to_owned(), bundled.text.to_owned(), maze)
+    });
+    bundled.chain(generated).collect()
 }
 
 /// The same answers to the same readings: the host's simulation, fed with the

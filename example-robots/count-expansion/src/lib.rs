@@ -35,7 +35,7 @@
 //! Settings: only 0.
 
 use wasmouse_sdk::{
-    Action, Briefing, Cell, CellSet, Expansion, Hop, Robot, Sensors, Tracker, Turn, View,
+    Action, Briefing, Cell, CellSet, Expansion, Hop, Map, Robot, Sensors, Tracker, Turn, View,
     export_robot,
 };
 
@@ -82,6 +82,10 @@ impl Robot for CountExpansion {
             None => self.tracker.turn(Turn::Right),
         }
     }
+
+    fn map(&self) -> Option<&Map> {
+        Some(self.tracker.map())
+    }
 }
 
 impl CountExpansion {
@@ -96,6 +100,10 @@ impl CountExpansion {
 }
 
 #[cfg(test)]
+#[path = "../../contest_figures.rs"]
+mod contest_figures;
+
+#[cfg(test)]
 #[path = "../../contest_mazes.rs"]
 mod contest_mazes;
 
@@ -105,24 +113,14 @@ mod tests {
     use wasmouse_sdk::Area;
     use wasmouse_sdk::testing::{self, MAZE_01, PlayOptions};
 
-    fn check(maze: &str, options: &PlayOptions, expected: &str) {
-        let played = testing::play::<CountExpansion>(maze, options);
-        assert_eq!(played.summary(), expected);
-        assert_eq!((played.bumps, played.resets_before_goal), (0, 0));
-    }
-
     /// The figures of the crate's documentation.
     #[test]
     fn contest_mazes() {
-        let expected = [
-            "finished 36 + 44: 45.200",
-            "finished 60 + 44: 46.000",
-            "finished 75 + 47: 49.500",
-        ];
-        for (number, maze) in contest_mazes::contest_mazes() {
-            let expected = expected[usize::from(number) - 1];
-            check(&maze, &PlayOptions::default(), expected);
-        }
+        contest_figures::check::<CountExpansion>(&[
+            (1, 0, "finished 36 + 44: 45.200"),
+            (2, 0, "finished 60 + 44: 46.000"),
+            (3, 0, "finished 75 + 47: 49.500"),
+        ]);
     }
 
     #[test]
@@ -133,13 +131,13 @@ mod tests {
             goal: Some(Area::new(Cell::new(0, 1), 1, 2)),
             ..PlayOptions::default()
         };
-        check(maze, &options, "finished 2 + 1: 1.067");
+        testing::check::<CountExpansion>(maze, &options, "finished 2 + 1: 1.067");
     }
 
     #[test]
     fn a_goal_that_is_walled_in() {
         let maze = "3\n1,5,4\n0,0,0\n0,0,0";
-        check(maze, &PlayOptions::default(), "goal not seen 1000 + 0");
+        testing::check::<CountExpansion>(maze, &PlayOptions::default(), "goal not seen 1000 + 0");
     }
 
     #[test]
@@ -149,7 +147,7 @@ mod tests {
             goal: Some(Area::new(Cell::new(0, 2), 1, 1)),
             ..PlayOptions::default()
         };
-        check(MAZE_01, &options, "finished 5 + 3: 3.167");
+        testing::check::<CountExpansion>(MAZE_01, &options, "finished 5 + 3: 3.167");
     }
 
     #[test]

@@ -42,8 +42,8 @@
 
 use wasmouse_sdk::journal::{self, Color};
 use wasmouse_sdk::{
-    Action, Area, Briefing, Cell, CellSet, Heading, Robot, Run, Search, Sensors, Tracker, Turn,
-    View, Wall, export_robot,
+    Action, Area, Briefing, Cell, CellSet, Heading, Map, Robot, Run, Search, Sensors, Tracker,
+    Turn, View, Wall, export_robot,
 };
 
 /// The report's order: pushed last, taken first.
@@ -101,6 +101,10 @@ impl Robot for DepthFirst {
             return self.tracker.reset();
         }
         self.explore()
+    }
+
+    fn map(&self) -> Option<&Map> {
+        Some(self.tracker.map())
     }
 }
 
@@ -271,10 +275,7 @@ mod tests {
         ];
         let mazes = contest_mazes::contest_mazes();
         for (number, setting, expected) in expected {
-            let options = PlayOptions {
-                setting,
-                ..PlayOptions::default()
-            };
+            let options = PlayOptions::of_setting(setting);
             if let Some((_, maze)) = mazes.iter().find(|it| it.0 == number) {
                 let played = play(maze, &options);
                 assert_eq!(signals(&played), usize::from(setting != 1));
@@ -300,10 +301,7 @@ mod tests {
     #[test]
     fn visits_every_cell_of_maze_01() {
         let [backtracking, pure] = [0, 2].map(|setting| {
-            let options = PlayOptions {
-                setting,
-                ..PlayOptions::default()
-            };
+            let options = PlayOptions::of_setting(setting);
             visits(&play(MAZE_01, &options))
         });
         assert_eq!(backtracking.len(), 144);
@@ -373,10 +371,7 @@ mod tests {
     fn a_goal_that_is_walled_in() {
         let maze = "3\n1,5,4\n0,0,0\n0,0,0";
         for setting in [0, 2] {
-            let options = PlayOptions {
-                setting,
-                ..PlayOptions::default()
-            };
+            let options = PlayOptions::of_setting(setting);
             let played = play(maze, &options);
             assert_eq!(played.summary(), "goal not seen 1000 + 0");
             assert_eq!(signals(&played), 1);

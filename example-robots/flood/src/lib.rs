@@ -23,8 +23,8 @@
 //! Settings: 0 resets in the goal, 1 explores until the best path is certain.
 
 use wasmouse_sdk::{
-    Action, Briefing, CellSet, Doubt, Hop, Pose, Robot, Run, Search, Sensors, Tracker, Turn, View,
-    export_robot,
+    Action, Briefing, CellSet, Doubt, Hop, Map, Pose, Robot, Run, Search, Sensors, Tracker, Turn,
+    View, export_robot,
 };
 
 /// The robot.
@@ -75,6 +75,10 @@ impl Robot for Flood {
             Some(question) => self.look_into(question),
             None => self.tracker.reset(),
         }
+    }
+
+    fn map(&self) -> Option<&Map> {
+        Some(self.tracker.map())
     }
 }
 
@@ -128,6 +132,10 @@ impl Flood {
 }
 
 #[cfg(test)]
+#[path = "../../contest_figures.rs"]
+mod contest_figures;
+
+#[cfg(test)]
 #[path = "../../contest_mazes.rs"]
 mod contest_mazes;
 
@@ -136,12 +144,6 @@ mod tests {
     use super::*;
     use wasmouse_sdk::testing::{self, MAZE_01, PlayOptions};
     use wasmouse_sdk::{Area, Cell};
-
-    fn check(maze: &str, options: &PlayOptions, expected: &str) {
-        let played = testing::play::<Flood>(maze, options);
-        assert_eq!(played.summary(), expected);
-        assert_eq!(played.bumps, 0);
-    }
 
     #[test]
     fn contest_mazes() {
@@ -154,16 +156,7 @@ mod tests {
             (2, 1, "finished 193 + 22: 28.433"),
             (3, 1, "finished 281 + 25: 34.367"),
         ];
-        let mazes = contest_mazes::contest_mazes();
-        for (number, setting, expected) in expected {
-            let options = PlayOptions {
-                setting,
-                ..PlayOptions::default()
-            };
-            if let Some((_, maze)) = mazes.iter().find(|it| it.0 == number) {
-                check(maze, &options, expected);
-            }
-        }
+        contest_figures::check::<Flood>(&expected);
     }
 
     /// The smallest budget that is enough for setting 0 is enough for setting 1.
@@ -175,7 +168,7 @@ mod tests {
                 budget,
                 ..PlayOptions::default()
             };
-            check(MAZE_01, &options, expected);
+            testing::check::<Flood>(MAZE_01, &options, expected);
         }
     }
 
@@ -186,13 +179,13 @@ mod tests {
             goal: Some(Area::new(Cell::new(0, 2), 1, 1)),
             ..PlayOptions::default()
         };
-        check(MAZE_01, &options, "finished 5 + 3: 3.167");
+        testing::check::<Flood>(MAZE_01, &options, "finished 5 + 3: 3.167");
     }
 
     #[test]
     fn a_goal_that_is_walled_in() {
         let maze = "3\n1,5,4\n0,0,0\n0,0,0";
-        check(maze, &PlayOptions::default(), "goal not seen 1000 + 0");
+        testing::check::<Flood>(maze, &PlayOptions::default(), "goal not seen 1000 + 0");
     }
 
     #[test]

@@ -71,8 +71,8 @@
 //! 4 `swing-2`.
 
 use wasmouse_sdk::{
-    Action, Briefing, Cell, CellSet, Expansion, Hop, News, Robot, Run, Search, Sensors, Tracker,
-    Turn, View, export_robot,
+    Action, Briefing, Cell, CellSet, Expansion, Hop, Map, News, Robot, Run, Search, Sensors,
+    Tracker, Turn, View, export_robot,
 };
 
 /// The robot.
@@ -117,6 +117,10 @@ impl Robot for Lobato {
             Run::Exploration => self.explore(),
             Run::Speed => self.race(),
         }
+    }
+
+    fn map(&self) -> Option<&Map> {
+        Some(self.tracker.map())
     }
 }
 
@@ -248,6 +252,10 @@ fn rank(cell: Cell, walked: u32, rest: u32) -> u64 {
 }
 
 #[cfg(test)]
+#[path = "../../contest_figures.rs"]
+mod contest_figures;
+
+#[cfg(test)]
 #[path = "../../contest_mazes.rs"]
 mod contest_mazes;
 
@@ -263,10 +271,6 @@ mod tests {
         let played = testing::play::<Lobato>(maze, options);
         assert_eq!((played.bumps, played.resets_before_goal), (0, 0));
         played
-    }
-
-    fn check(maze: &str, options: &PlayOptions, expected: &str) {
-        assert_eq!(play(maze, options).summary(), expected, "{options:?}");
     }
 
     /// The figures of the crate's documentation.
@@ -289,16 +293,7 @@ mod tests {
             (3, 3, "finished 221 + 29: 36.367"),
             (3, 4, "finished 214 + 29: 36.133"),
         ];
-        let mazes = contest_mazes::contest_mazes();
-        for (number, setting, expected) in expected {
-            let options = PlayOptions {
-                setting,
-                ..PlayOptions::default()
-            };
-            if let Some((_, maze)) = mazes.iter().find(|it| it.0 == number) {
-                check(maze, &options, expected);
-            }
-        }
+        contest_figures::check::<Lobato>(&expected);
     }
 
     /// Run 1 stops in all the cells that the report's code names, in that order.
@@ -353,7 +348,7 @@ mod tests {
                 budget,
                 ..PlayOptions::default()
             };
-            check(MAZE_01, &options, expected);
+            testing::check::<Lobato>(MAZE_01, &options, expected);
         }
     }
 
@@ -409,7 +404,7 @@ mod tests {
                 goal: Some(Area::new(Cell::new(0, 1), 2, 2)),
                 ..PlayOptions::default()
             };
-            check(maze, &options, expected);
+            testing::check::<Lobato>(maze, &options, expected);
         }
     }
 
@@ -417,11 +412,8 @@ mod tests {
     fn a_goal_that_is_walled_in() {
         let maze = "3\n1,5,4\n0,0,0\n0,0,0";
         for setting in SETTINGS {
-            let options = PlayOptions {
-                setting,
-                ..PlayOptions::default()
-            };
-            check(maze, &options, "goal not seen 1000 + 0");
+            let options = PlayOptions::of_setting(setting);
+            testing::check::<Lobato>(maze, &options, "goal not seen 1000 + 0");
         }
     }
 
@@ -433,7 +425,7 @@ mod tests {
             goal: Some(Area::new(Cell::new(0, 2), 1, 1)),
             ..PlayOptions::default()
         };
-        check(MAZE_01, &options, "finished 5 + 3: 3.167");
+        testing::check::<Lobato>(MAZE_01, &options, "finished 5 + 3: 3.167");
     }
 
     #[test]

@@ -68,8 +68,8 @@ mod steps;
 use std::collections::VecDeque;
 
 use wasmouse_sdk::{
-    Action, Area, Briefing, Cell, CellSet, Certificate, Doubt, Hop, Robot, Run, Search, Sensors,
-    Tracker, Turn, View, export_robot, journal,
+    Action, Area, Briefing, Cell, CellSet, Certificate, Doubt, Hop, Map, Robot, Run, Search,
+    Sensors, Tracker, Turn, View, export_robot, journal,
 };
 
 use knowledge::Knowledge;
@@ -172,6 +172,10 @@ impl Robot for Minnett {
         let action = self.explore();
         self.visited.push(self.tracker.cell());
         action
+    }
+
+    fn map(&self) -> Option<&Map> {
+        Some(self.knowledge.map())
     }
 }
 
@@ -342,6 +346,10 @@ impl Minnett {
         action
     }
 }
+
+#[cfg(test)]
+#[path = "../../contest_figures.rs"]
+mod contest_figures;
 
 #[cfg(test)]
 #[path = "../../contest_mazes.rs"]

@@ -3,12 +3,6 @@
 use super::*;
 use wasmouse_sdk::testing::{self, MAZE_01, PlayOptions};
 
-fn check(maze: &str, options: &PlayOptions, expected: &str) {
-    let played = testing::play::<Minnett>(maze, options);
-    assert_eq!(played.summary(), expected, "{options:?}");
-    assert_eq!((played.bumps, played.resets_before_goal), (0, 0));
-}
-
 /// The figures of the crate's documentation.
 #[test]
 fn contest_mazes() {
@@ -29,16 +23,7 @@ fn contest_mazes() {
         (3, 4, "finished 203 + 25: 31.767"),
         (3, 0, "finished 203 + 25: 31.767"),
     ];
-    let mazes = contest_mazes::contest_mazes();
-    for (number, setting, expected) in expected {
-        let options = PlayOptions {
-            setting,
-            ..PlayOptions::default()
-        };
-        if let Some((_, maze)) = mazes.iter().find(|it| it.0 == number) {
-            check(maze, &options, expected);
-        }
-    }
+    contest_figures::check::<Minnett>(&expected);
 }
 
 /// With a budget that is too short for the proof it resets in time.
@@ -65,13 +50,13 @@ fn a_goal_behind_the_start() {
         goal: Some(Area::new(Cell::new(0, 2), 1, 1)),
         ..PlayOptions::default()
     };
-    check(MAZE_01, &options, "finished 38 + 3: 4.267");
+    testing::check::<Minnett>(MAZE_01, &options, "finished 38 + 3: 4.267");
 }
 
 #[test]
 fn a_goal_that_is_walled_in() {
     let maze = "3\n1,5,4\n0,0,0\n0,0,0";
-    check(maze, &PlayOptions::default(), "goal not seen 1000 + 0");
+    testing::check::<Minnett>(maze, &PlayOptions::default(), "goal not seen 1000 + 0");
 }
 
 /// Two entrances, against the rules: the inference is wrong, the robot is not.

@@ -73,8 +73,8 @@ mod walk;
 use value_table::ValueTable;
 use walk::{DeadEnds, Walk};
 use wasmouse_sdk::{
-    Action, Briefing, CellSet, Heading, Random, Robot, Run, Search, Sensors, Tracker, Turn, View,
-    Wall, export_robot,
+    Action, Briefing, CellSet, Heading, Map, Random, Robot, Run, Search, Sensors, Tracker, Turn,
+    View, Wall, export_robot,
 };
 
 /// The robot.
@@ -138,6 +138,10 @@ impl Robot for Rai {
         }
         self.tracker.go(heading, 1)
     }
+
+    fn map(&self) -> Option<&Map> {
+        Some(self.tracker.map())
+    }
 }
 
 impl Rai {
@@ -156,6 +160,9 @@ impl Rai {
     }
 
     /// Whether one more step of exploration leaves enough for the race.
+    ///
+    /// [`Tracker::can_afford_race`] would ask for the fewest steps, but this robot
+    /// races by its values, whose ways are the shortest in cells only.
     fn has_time(&mut self) -> bool {
         let cells = self.tracker.briefing().dimension.pow(2);
         if self.tracker.can_afford(1, cells) {
@@ -222,6 +229,10 @@ impl Rai {
         }
     }
 }
+
+#[cfg(test)]
+#[path = "../../contest_figures.rs"]
+mod contest_figures;
 
 #[cfg(test)]
 #[path = "../../contest_mazes.rs"]

@@ -12,13 +12,6 @@ fn play(maze: &str, options: &PlayOptions) -> Played {
     played
 }
 
-fn setting(setting: u32) -> PlayOptions {
-    PlayOptions {
-        setting,
-        ..PlayOptions::default()
-    }
-}
-
 /// The table of the crate's documentation.
 #[test]
 fn contest_mazes_in_all_settings() {
@@ -39,13 +32,7 @@ fn contest_mazes_in_all_settings() {
         (2, 4, "finished 657 + 26: 47.900"),
         (3, 4, "finished 776 + 27: 52.867"),
     ];
-    let mazes = contest_mazes();
-    for (number, value, expected) in expected {
-        if let Some((_, maze)) = mazes.iter().find(|it| it.0 == number) {
-            let played = play(maze, &setting(value));
-            assert_eq!(played.summary(), expected, "maze {number}, setting {value}");
-        }
-    }
+    contest_figures::check::<Rai>(&expected);
 }
 
 /// Figure 5: how often the robot has been in each cell of maze 01 when it resets,
@@ -66,7 +53,7 @@ fn the_traversal_grid_of_maze_01() {
         [1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0],
         [1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0],
     ];
-    let played = play(MAZE_01, &setting(0));
+    let played = play(MAZE_01, &PlayOptions::of_setting(0));
     let mut counts = [[0; 12]; 12];
     for stop in played.stops.iter().filter(|it| it.run == 1) {
         counts[stop.cell.x as usize][stop.cell.y as usize] += 1;
@@ -96,7 +83,7 @@ fn the_races_of_maze_02() {
         return;
     };
     for (value, figure) in [(0, figure_9), (2, figure_10)] {
-        let played = play(maze, &setting(value));
+        let played = play(maze, &PlayOptions::of_setting(value));
         let race: Vec<String> = played
             .stops
             .iter()
@@ -109,7 +96,10 @@ fn the_races_of_maze_02() {
 
 #[test]
 fn the_first_version_rolls_dice() {
-    let seeds = [1, 2].map(|seed| PlayOptions { seed, ..setting(4) });
+    let seeds = [1, 2].map(|seed| PlayOptions {
+        seed,
+        ..PlayOptions::of_setting(4)
+    });
     let [one, two] = seeds.map(|it| play(MAZE_01, &it));
     assert!(one.finished && two.finished);
     assert_ne!(one.stops, two.stops);
@@ -122,7 +112,7 @@ fn stops_exploring_in_time() {
         for budget in 60..400 {
             let options = PlayOptions {
                 budget,
-                ..setting(value)
+                ..PlayOptions::of_setting(value)
             };
             let played = play(MAZE_01, &options);
             assert!(
@@ -151,7 +141,7 @@ fn looks_behind_a_start_in_the_middle() {
         let options = PlayOptions {
             start: Cell::new(1, 7),
             goal: Some(Area::new(Cell::new(0, 0), 1, 1)),
-            ..setting(value)
+            ..PlayOptions::of_setting(value)
         };
         let played = play(MAZE_01, &options);
         assert!(played.finished, "setting {value}: {}", played.summary());
@@ -162,7 +152,7 @@ fn looks_behind_a_start_in_the_middle() {
 fn a_goal_that_is_walled_in() {
     let maze = "3\n1,5,4\n0,0,0\n0,0,0";
     for value in 0..5 {
-        let played = play(maze, &setting(value));
+        let played = play(maze, &PlayOptions::of_setting(value));
         assert_eq!(played.summary(), "goal not seen 1000 + 0");
     }
 }

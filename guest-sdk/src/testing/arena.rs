@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::audit::MapAudit;
 use super::maze::Maze;
 use super::record::{Entry, Recorder};
 use crate::{Action, Area, Briefing, BudgetScope, Cell, Heading, Move, Pose, Robot, Sensors};
@@ -38,6 +39,22 @@ impl Default for PlayOptions {
             exploration_divisor: 30,
             start: Cell::new(0, 0),
             goal: None,
+        }
+    }
+}
+
+impl PlayOptions {
+    /// The default with a setting, for robots that have several.
+    ///
+    /// ```
+    /// use wasmouse_sdk::testing::PlayOptions;
+    /// let options = PlayOptions { budget: 50, ..PlayOptions::of_setting(2) };
+    /// assert_eq!((options.setting, options.seed), (2, 0));
+    /// ```
+    pub fn of_setting(setting: u32) -> Self {
+        Self {
+            setting,
+            ..Self::default()
         }
     }
 }
@@ -125,6 +142,8 @@ pub struct Played {
     pub resets_in_run_2: u32,
     /// Every journal call, in order.
     pub journal: Vec<Entry>,
+    /// The robot's map against the maze; `None` of a robot that shows none.
+    pub map: Option<MapAudit>,
 }
 
 impl Played {
@@ -164,11 +183,61 @@ pub fn play<R: Robot>(maze_text: &str, options: &PlayOptions) -> Played {
         let sensors = maze.sense(arena.pose.cell, arena.pose.heading);
         let action = robot.next_move(sensors);
         arena.step(sensors, action);
+        if let Some(map) = robot.map() {
+            let call = arena.played.stops.len() as u32;
+            let audit = arena.played.map.unwrap_or_default();
+            arena.played.map = Some(audit.after(call, map, &maze));
+        }
     }
     Played {
         end: arena.pose,
         journal: recorder.finish(),
         ..arena.played
+    }
+}
+
+/// Plays one match and requires that it goes as [`Played::summary`] says, without a
+/// bump, a move that is too long or a reset that is refused.
+///
+/// For what a robot did once and has to do ever after.
+///
+/// ```
+/// use wasmouse_sdk::testing::{self, MAZE_01, PlayOptions};
+/// use wasmouse_sdk::{Action, Briefing, Robot, Sensors, Turn};
+///
+/// /// Drives up and then looks around.
+/// struct Stray;
+///
+/// impl Robot for Stray {
+///     fn start(_: &Briefing) -> Self {
+///         Self
+///     }
+///
+///     fn next_move(&mut self, sensors: Sensors) -> Action {
+///         match sensors.front.min(3) {
+///             0 => Action::drive(Turn::Left, 0),
+///             cells => Action::drive(Turn::Straight, cells as i8),
+///         }
+///     }
+/// }
+///
+/// testing::check::<Stray>(MAZE_01, &PlayOptions::default(), "goal not seen 1000 + 0");
+/// ```
+///
+/// # Panics
+///
+/// When it does not, and where [`play`] does.
+pub fn check<R: Robot>(maze_text: &str, options: &PlayOptions, expected: &str) {
+    let played = play::<R>(maze_text, options);
+    assert_eq!(played.summary(), expected, "{options:?}");
+    let wrong = [
+        (played.bumps, "bumps"),
+        (played.clamps, "clamps"),
+        (played.resets_before_goal, "resets before the goal"),
+        (played.resets_in_run_2, "resets in run 2"),
+    ];
+    for (count, what) in wrong {
+        assert_eq!(count, 0, "{what}, {options:?}");
     }
 }
 
@@ -215,6 +284,7 @@ impl<'a> Arena<'a> {
                 resets_before_goal: 0,
                 resets_in_run_2: 0,
                 journal: Vec::new(),
+                map: None,
             },
         }
     }

@@ -26,9 +26,11 @@
 //! ```
 
 mod arena;
+mod audit;
 mod maze;
 pub(crate) mod record;
 
-pub use arena::{PlayOptions, Played, Score, Stop, briefing, play};
+pub use arena::{PlayOptions, Played, Score, Stop, briefing, check, play};
+pub use audit::MapAudit;
 pub use maze::MAZE_01;
 pub use record::{Entry, Note};

@@ -42,7 +42,7 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/dfs.wasm"),
-        sha256: "a5f405a59bdfbc6af08bc0a0d1e3ba7fa2efbc1bd6cbbf4661eee4b666501a28",
+        sha256: "195a6adfe261730cb868625b4eff03896b42d46882741335df24776333afaabe",
     },
     BundledRobot {
         name: "flood",
@@ -93,7 +93,7 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/lobato.wasm"),
-        sha256: "bd7a8c89e7afad06481da2d4b408021d88b4f8f80a461ecec8a9bfa536cd280c",
+        sha256: "4d75f5e98fcfcd297adb82277265911a035d8123dabfdb36790a905a9c523b63",
     },
     BundledRobot {
         name: "minnett",
@@ -159,7 +159,7 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/rai.wasm"),
-        sha256: "529b52592b5be0150f159a704c87f86262f1fa52a5862985c60294f120c174a1",
+        sha256: "d7fff5e3425947692487c9398526a1e9191a89474e547377b51f6f542bcdf686",
     },
     BundledRobot {
         name: "random",
