@@ -26,9 +26,8 @@ pub fn tell(
 ) -> Result<(), Failure> {
     let mut last = None;
     let first_faults = results.iter().filter(|result| {
-        let is_first = matches!(result.outcome.verdict, Verdict::Fault(_))
-            && last.replace(result.entrant) != Some(result.entrant);
-        is_first
+        matches!(result.outcome.verdict, Verdict::Fault(_))
+            && last.replace(result.entrant) != Some(result.entrant)
     });
     for result in first_faults.take(ROBOTS_MAX) {
         let entrant = &contest.entrants[result.entrant];
