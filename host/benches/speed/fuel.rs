@@ -16,8 +16,10 @@ use super::stage;
 /// too low.
 const RATIO_MAX: f64 = 10.0;
 
-/// Fuel of the step that is timed.
-const STEP_FUEL: u64 = 40_000_000;
+/// Fuel of the step that is timed: at least this, and so much that it takes [`TIMED`].
+const STEP_FUEL: u64 = 10_000_000;
+const STEP_FUEL_MAX: u64 = 2_000_000_000;
+const TIMED: Duration = Duration::from_millis(40);
 
 /// Pages of the memory of all mixes: 192 MiB, more than any cache.
 const PAGES: u32 = 3072;
@@ -98,6 +100,22 @@ fn mixes() -> Vec<Mix> {
         mix(
             "minima of floats",
             "(local.set $d (f64.min (local.get $d) (f64.const 0.3)))",
+        ),
+        mix(
+            "float additions",
+            "(local.set $d (f64.add (local.get $d) (f64.const 1e-300)))",
+        ),
+        mix(
+            "float products",
+            "(local.set $d (f64.mul (local.get $d) (f64.const 1.0000001)))",
+        ),
+        mix(
+            "vector additions of floats",
+            "(local.set $v (f64x2.add (local.get $v) (local.get $v)))",
+        ),
+        mix(
+            "float comparisons",
+            "(local.set $j (f64.lt (local.get $d) (f64.const 1e-300)))(local.set $d (f64.convert_i32_s (local.get $j)))",
         ),
         mix("roundings", "(local.set $d (f64.nearest (local.get $d)))"),
         mix(
@@ -211,7 +229,7 @@ fn mixes() -> Vec<Mix> {
         ),
         mix(
             "memory.grow that fails",
-            "(local.set $i (memory.grow (i32.const 60000)))",
+            "(local.set $i (memory.grow (i32.const 500)))",
         ),
         mix(
             "memory.fill of nothing",
@@ -350,7 +368,7 @@ impl Mix {
             r#"(module
                 (import "{journal}" "log" (func $log (param i32 i32 i32)))
                 (import "{journal}" "paint" (func $paint (param i32 i32 i32)))
-                (memory (export "memory") {PAGES})
+                (memory (export "memory") {PAGES} {PAGES})
                 (global $g (mut i32) (i32.const 0))
                 {fields}
                 (func (export "wasmouse:robot/controller@0.1.0#start")
@@ -413,15 +431,14 @@ fn flood() -> f64 {
 
 /// Nanoseconds of a unit of fuel in that robot's endless step.
 fn price(component: &[u8], name: &str) -> f64 {
-    let mut best = f64::INFINITY;
-    for _ in 0..3 {
-        // What is around the step takes time too, and as much for less fuel.
-        let (short, long) = (STEP_FUEL / 4, STEP_FUEL);
-        let times = [short, long].map(|fuel| time(component, fuel, name));
-        let more = times[1].saturating_sub(times[0]);
-        best = best.min(nanoseconds(more, long - short));
+    let mut fuel = STEP_FUEL;
+    while fuel < STEP_FUEL_MAX && time(component, fuel, name) < TIMED {
+        fuel *= 4;
     }
-    best
+    // What is around the step takes time too, and as much for less fuel.
+    let least = |fuel| (0..3).map(|_| time(component, fuel, name)).min();
+    let [short, long] = [fuel / 4, fuel].map(|fuel| least(fuel).unwrap_or_default());
+    nanoseconds(long.saturating_sub(short), fuel - fuel / 4)
 }
 
 fn time(component: &[u8], step_fuel: u64, name: &str) -> Duration {

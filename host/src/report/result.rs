@@ -5,7 +5,7 @@
 //! {
 //!   "schema": 1,
 //!   "wasmouse": "0.1.0",
-//!   "engine": "wasmtime-48.0.8+wasmouse.1",
+//!   "engine": "wasmtime-48.0.8+wasmouse.2",
 //!   "ruleset": {"name": "udacity", "version": 1, "sha256": "..."},
 //!   "complete": true,
 //!   "robots": [{"name": "flood", "sha256": "...", "setting": 0}],

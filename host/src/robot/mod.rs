@@ -17,6 +17,7 @@ mod bindings;
 mod cache;
 mod code;
 mod controller;
+mod cost;
 mod digest;
 mod engine;
 mod error;
