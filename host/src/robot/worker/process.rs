@@ -187,7 +187,7 @@ impl Process {
         if hello.build == build {
             Ok(hello.sandbox)
         } else {
-            let other: String = hello.build.chars().take(80).collect();
+            let other = plain(&hello.build.chars().take(80).collect::<String>());
             Err(io::Error::other(format!(
                 "the worker is `{other}` and the supervisor `{build}`"
             )))
@@ -220,7 +220,7 @@ impl Process {
             status,
             expired: self.watched.expired(),
             error: error.to_string(),
-            words: String::from_utf8_lossy(&words).trim().to_owned(),
+            words: plain(&String::from_utf8_lossy(&words)),
         }
     }
 }
@@ -318,5 +318,23 @@ impl fmt::Display for Death {
             write!(f, ": {line}")?;
         }
         Ok(())
+    }
+}
+
+/// The text without anything but printable ASCII and line ends: a worker that a robot
+/// has taken over may say anything.
+fn plain(text: &str) -> String {
+    let printable = |&c: &char| c == '\n' || c == ' ' || c.is_ascii_graphic();
+    let kept: String = text.chars().filter(printable).collect();
+    kept.trim().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+
+    #[test]
+    fn last_words_are_plain_text() {
+        assert_eq!(plain("a\u{1b}[31m b\u{202e}c\r\nd \n"), "a[31m bc\nd");
     }
 }
