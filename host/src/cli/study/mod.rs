@@ -5,6 +5,7 @@
 //! [`crate::report::reference`].
 
 mod mazes;
+mod sample;
 
 use std::fs::{self, File};
 use std::io::Read as _;
@@ -30,7 +31,8 @@ const LONG_HELP: &str = "\
 Mazes: the official ones, of which wasmouse comes with maze 01 alone; 100 of
 each size from 12 to 20 from each of the four generators, with the seeds
 500001 to 500100; and those of competitions, by the number of entrances to
-their goal. The page says so where mazes were absent. The same version writes
+their goal. A slow robot, `champion:deep`, plays 10 of each size and generator.
+The page says so, and also where mazes were absent. The same version writes
 the same bytes on any number of threads. A page that is there already is
 replaced if an earlier study wrote it.
 
@@ -89,8 +91,8 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         rules,
     };
     let threads = args.setup.threads();
-    let played = run::play(&contest, &referee, threads)?;
-    let mut exit = run::exit(&contest, &played);
+    let competitors: Vec<Competitor> = specifications.iter().map(competitor).collect();
+    let (played, mut exit) = sample::play(&contest, &groups, &competitors, &referee, threads)?;
     let mut tries = None;
     if is_whole(exit)
         && let Some(contest) = args.tries(&specifications, &contest, &referee)?
@@ -108,7 +110,6 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     }
     let results = played.results;
     run::tell_failures(&contest, &results);
-    let competitors: Vec<Competitor> = specifications.iter().map(competitor).collect();
     let page = Reference {
         study: Study {
             contest: &contest,

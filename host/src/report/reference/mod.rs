@@ -40,7 +40,8 @@ pub struct Competitor {
 }
 
 impl Competitor {
-    fn is(&self, robot: &str, setting: Option<&str>) -> bool {
+    /// Whether it is that bundled robot in that setting.
+    pub fn is(&self, robot: &str, setting: Option<&str>) -> bool {
         self.is_bundled && self.robot == robot && self.setting.as_deref() == setting
     }
 
