@@ -4,8 +4,8 @@
 //!     wasmouse maze generate gen:division:12..=20:1..=50 -o mazes
 //!     cargo run --release -p robot-champion --example regret -- mazes/*
 //!
-//! Files are of the Udacity text format, with the contest's start and goal. `-v` before
-//! them prints a line for each.
+//! Files are of the Udacity text format, with the contest's start and goal. Before them,
+//! `-v` prints a line for each, and `-d` plays the setting `deep`.
 
 use robot_champion::Champion;
 use wasmouse_sdk::testing::{self, PlayOptions, Stop};
@@ -13,13 +13,18 @@ use wasmouse_sdk::{Area, Cell, CellSet, Heading, Passages, Search};
 
 fn main() {
     let mut files: Vec<String> = std::env::args().skip(1).collect();
-    let verbose = files.first().is_some_and(|it| it == "-v");
-    files.retain(|it| it != "-v");
+    let verbose = files.iter().any(|it| it == "-v");
+    let setting = u32::from(files.iter().any(|it| it == "-d"));
+    files.retain(|it| !it.starts_with('-'));
     let (mut sum, mut scores, mut failed) = (0.0, 0.0, 0);
+    let options = PlayOptions {
+        setting,
+        ..PlayOptions::default()
+    };
     let clock = std::time::Instant::now();
     for file in &files {
         let text = std::fs::read_to_string(file).expect("a maze file");
-        let played = testing::play::<Champion>(&text, &PlayOptions::default());
+        let played = testing::play::<Champion>(&text, &options);
         let Some(score) = played.score else {
             println!("{file}: {}", played.summary());
             failed += 1;

@@ -18,8 +18,10 @@
 
 use wasmouse_sdk::{Briefing, Cell, Grid, Heading, Random};
 
+use crate::knowledge::Known;
 use crate::numbers::{exp, ln};
 use crate::parameters::{KINDS, PATTERNS};
+use crate::room::Room;
 
 /// How much sparser or denser than its kind a maze may be: shifts of the logarithm
 /// of the odds that a wall is open, with how likely each is beforehand.
@@ -34,17 +36,6 @@ const SETTLING_SWEEPS: u32 = 12;
 /// How much of a chance comes from the newest samples; the rest is what was believed
 /// before. Fewer samples at a time then do the work of more.
 const RENEWAL: f32 = 0.5;
-
-/// What is known about a wall.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Known {
-    /// Not seen.
-    Unknown,
-    /// Seen open.
-    Open,
-    /// Seen closed, or of the perimeter.
-    Closed,
-}
 
 /// Chances and sampled mazes.
 pub struct Belief {
@@ -76,13 +67,6 @@ struct Expert {
     opinion: [f32; 256],
     /// The logarithm of how likely it is, up to a common constant.
     evidence: f32,
-}
-
-/// The goal room, while it is believed to be one with a single entrance.
-struct Room {
-    believed: bool,
-    entrances: Vec<u16>,
-    inside: Vec<u16>,
 }
 
 impl Belief {
@@ -122,7 +106,7 @@ impl Belief {
             opinion: [0.5; 256],
             neighborhoods,
             places,
-            room: Room::new(briefing, grid),
+            room: Room::new(briefing),
             random: Random::new(briefing.seed),
             known,
         };
@@ -142,6 +126,26 @@ impl Belief {
     #[inline]
     pub fn chance(&self, wall: usize) -> f32 {
         self.chances[wall]
+    }
+
+    /// What is known about every wall.
+    pub fn all_known(&self) -> &[Known] {
+        &self.known
+    }
+
+    /// The walls that have not been seen.
+    pub fn unknown(&self) -> &[u16] {
+        &self.unknown
+    }
+
+    /// What is believed about the goal room.
+    pub const fn room(&self) -> &Room {
+        &self.room
+    }
+
+    /// The sampled mazes: by wall, 1 where it is open.
+    pub fn samples(&self) -> impl ExactSizeIterator<Item = &[u8]> {
+        self.samples.iter().map(|it| &it.open[..])
     }
 
     /// Takes in walls that were seen for the first time, and thinks about the others.
@@ -229,7 +233,7 @@ impl Belief {
         let scale = 1.0 / (65536.0 * self.samples.len() as f32 * sweeps as f32);
         for &wall in &unknown {
             let wall = usize::from(wall);
-            let inside = self.room.believed && self.room.inside.contains(&(wall as u16));
+            let inside = self.room.is_believed() && self.room.is_inside(wall);
             let chance = if inside {
                 1.0
             } else {
@@ -242,10 +246,10 @@ impl Belief {
 
     /// Redraws which wall of the goal room is its entrance.
     fn redraw_entrance(&mut self, index: usize, sums: &mut [u32]) {
-        if !self.room.believed {
+        if !self.room.is_believed() {
             return;
         }
-        let walls = self.room.entrances.clone();
+        let walls = self.room.entrances().to_vec();
         let known = &self.known;
         let found = walls
             .iter()
@@ -288,11 +292,11 @@ impl Belief {
         for &wall in &self.unknown {
             open[usize::from(wall)] = (self.random.next_u64() & 1) as u8;
         }
-        if self.room.believed {
-            for &wall in &self.room.entrances {
+        if self.room.is_believed() {
+            for &wall in self.room.entrances() {
                 open[usize::from(wall)] = 0;
             }
-            for &wall in &self.room.inside {
+            for &wall in self.room.inside() {
                 open[usize::from(wall)] = 1;
             }
         }
@@ -317,58 +321,6 @@ impl Belief {
         for (&other, place) in around {
             sample.patterns[usize::from(other)] ^= 1 << place;
         }
-    }
-}
-
-impl Room {
-    fn new(briefing: &Briefing, grid: Grid) -> Self {
-        let goal = briefing.goal;
-        let mut room = Self {
-            believed: goal == wasmouse_sdk::Area::center(briefing.dimension)
-                && briefing.dimension.is_multiple_of(2)
-                && briefing.dimension >= 6
-                && !goal.contains(briefing.start),
-            entrances: Vec::new(),
-            inside: Vec::new(),
-        };
-        if !room.believed {
-            return room;
-        }
-        for cell in goal.cells() {
-            for side in Heading::ALL {
-                let wall = grid.wall(grid.cell(cell), side) as u16;
-                let inner = cell.toward(side, 1).is_some_and(|it| goal.contains(it));
-                let list = if inner {
-                    &mut room.inside
-                } else {
-                    &mut room.entrances
-                };
-                if !list.contains(&wall) {
-                    list.push(wall);
-                }
-            }
-        }
-        room
-    }
-
-    /// Whether the room says what that wall is like.
-    fn holds(&self, wall: usize) -> bool {
-        let wall = wall as u16;
-        self.believed && (self.entrances.contains(&wall) || self.inside.contains(&wall))
-    }
-
-    /// Gives up the belief when what has been seen contradicts it.
-    fn check(&mut self, known: &[Known], seen: usize) {
-        if !self.holds(seen) {
-            return;
-        }
-        let count = |list: &[u16], what| {
-            let alike = |&&wall: &&u16| known[usize::from(wall)] == what;
-            list.iter().filter(alike).count()
-        };
-        self.believed = count(&self.inside, Known::Closed) == 0
-            && count(&self.entrances, Known::Open) <= 1
-            && count(&self.entrances, Known::Closed) < self.entrances.len();
     }
 }
 

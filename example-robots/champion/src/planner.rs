@@ -1,4 +1,4 @@
-//! Where to go next: [`Planner`].
+//! The rules by which the robot decides: [`Planner`].
 //!
 //! An unknown wall is worth a detour, the more the likelier it stands: on the way to
 //! the goal it costs some steps times -ln of the chance that it is open. Once the
@@ -8,11 +8,12 @@
 //! worth more than the steps to go and look.
 
 use wasmouse_sdk::{
-    Briefing, Cell, CellSet, Grid, Heading, Hop, IMPASSABLE, Map, Search, View, WeightedSearch,
+    Briefing, Cell, CellSet, Grid, GuidedSearch, Heading, Hop, IMPASSABLE, Passages, Search,
+    WeightedSearch,
 };
 
-use crate::belief::{Belief, Known};
-use crate::numbers::{exp, ln};
+use crate::knowledge::{Knowledge, Known, STEP};
+use crate::numbers::exp;
 
 /// The scalars that decide between driving, exploring and resetting.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,15 +30,6 @@ pub struct Parameters {
     /// Steps that looking costs besides the way to the first wall.
     pub overhead: f32,
 }
-
-/// What a step costs in the weighted searches; walls cost in the same unit.
-const STEP: u16 = 32;
-
-/// The most that an unknown wall costs.
-const WALL_COST_MAX: f32 = 600.0;
-
-/// No wall is believed to be closed more firmly than that.
-const CHANCE_MIN: f32 = 0.02;
 
 /// What to do next.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,15 +50,26 @@ pub struct Planner {
     goal_numbers: Vec<usize>,
     divisor: f32,
     parameters: Parameters,
-    costs: Vec<u16>,
-    weighted: WeightedSearch,
+    /// Under the costs on the way to the goal, and under those for better ways.
+    weighted: [WeightedSearch; 2],
+    /// The same in imagined matches, led by those.
+    guided: [GuidedSearch; 2],
+    repair: WeightedSearch,
+    /// Costs for [`connect`](Self::connect).
+    repair_costs: Vec<u16>,
     search: Search,
 }
+
+const TO_GOAL: usize = 0;
+const BETTER: usize = 1;
 
 impl Planner {
     /// A planner for a match.
     pub fn new(briefing: &Briefing, parameters: Parameters) -> Self {
         let grid = Grid::new(briefing.dimension);
+        let longest = briefing.longest_move;
+        let weighted = WeightedSearch::new(grid, longest, STEP);
+        let guided = GuidedSearch::new(grid, longest, STEP);
         Self {
             grid,
             start: briefing.start,
@@ -74,43 +77,61 @@ impl Planner {
             goal_numbers: briefing.goal.cells().map(|it| grid.cell(it)).collect(),
             divisor: briefing.exploration_divisor as f32,
             parameters,
-            costs: vec![IMPASSABLE; grid.wall_count()],
-            weighted: WeightedSearch::new(grid, briefing.longest_move, STEP),
-            search: Search::new(briefing.dimension, briefing.longest_move),
+            weighted: std::array::from_fn(|_| weighted.clone()),
+            guided: std::array::from_fn(|_| guided.clone()),
+            repair: weighted,
+            repair_costs: Vec::new(),
+            search: Search::new(briefing.dimension, longest),
         }
     }
 
     /// The next hop of the way to the goal that is cheapest in view of what is
     /// unknown; `None` when the goal is walled in.
-    pub fn toward_goal(&mut self, belief: &Belief, from: Cell) -> Option<Hop> {
-        self.price(belief, self.parameters.goal_caution);
+    pub fn toward_goal(&mut self, knowledge: &Knowledge, from: Cell) -> Option<Hop> {
         let from = self.grid.cell(from);
-        self.weighted
-            .run(&self.costs, &self.goal_numbers, Some(from));
-        self.weighted.hop(from)
+        let search = &mut self.weighted[TO_GOAL];
+        search.run(&knowledge.goal_costs, &self.goal_numbers, Some(from));
+        search.hop(from)
     }
 
     /// The next hop of a shortest known way to the goal.
-    pub fn race(&mut self, map: &Map, from: Cell) -> Option<Hop> {
-        let known = map.passages(View::Pessimistic);
-        self.search.fill_until(known, &self.goal, from);
-        self.search.hops(known, from).next()
+    pub fn race(&mut self, open: &Passages, from: Cell) -> Option<Hop> {
+        self.search.fill_until(open, &self.goal, from);
+        self.search.hops(open, from).next()
     }
 
     /// What to do once the goal has been reached.
-    pub fn explore(&mut self, belief: &Belief, map: &Map, from: Cell) -> Plan {
-        let known = map.passages(View::Pessimistic);
-        self.search.fill_until(known, &self.goal, self.start);
-        let Some(known_steps) = self.search.steps(self.start) else {
-            return self
-                .toward_goal(belief, from)
-                .map_or(Plan::Stop, Plan::Drive);
+    pub fn explore(&mut self, knowledge: &Knowledge, from: Cell) -> Plan {
+        let Some(known_steps) = self.known_steps(&knowledge.open) else {
+            let hop = self.toward_goal(knowledge, from);
+            return hop.map_or(Plan::Stop, Plan::Drive);
         };
-        let question = self.question(belief);
+        let start = self.grid.cell(self.start);
+        let search = &mut self.weighted[BETTER];
+        search.run(&knowledge.way_costs, &self.goal_numbers, Some(start));
+        let question = Question::of(knowledge, self.weighted[BETTER].way(start));
+        self.weigh(knowledge, from, known_steps, &question)
+    }
+
+    /// Steps of the race through walls known to be open.
+    pub fn known_steps(&mut self, open: &Passages) -> Option<u32> {
+        self.search.fill_until(open, &self.goal, self.start);
+        self.search.steps(self.start)
+    }
+
+    /// Whether a question is worth an answer, and where to go for it.
+    fn weigh(
+        &mut self,
+        knowledge: &Knowledge,
+        from: Cell,
+        known_steps: u32,
+        question: &Question,
+    ) -> Plan {
         if question.steps >= known_steps || question.vantages.is_empty() {
             return Plan::Stop;
         }
-        self.search.fill_until(known, &question.vantages, from);
+        let open = &knowledge.open;
+        self.search.fill_until(open, &question.vantages, from);
         let Some(steps) = self.search.steps(from) else {
             return Plan::Stop;
         };
@@ -124,49 +145,94 @@ impl Planner {
         if gain <= reluctance * (steps as f32 + overhead) / self.divisor {
             return Plan::Stop;
         }
-        let hop = self.search.hops(known, from).next();
-        hop.map_or(Plan::Look, Plan::Drive)
+        self.go_on(open, from).map_or(Plan::Look, Plan::Drive)
     }
 
-    /// The cheapest way from start to goal in view of what is unknown.
-    fn question(&mut self, belief: &Belief) -> Question {
-        self.price(belief, self.parameters.way_caution);
-        let (grid, start) = (self.grid, self.grid.cell(self.start));
-        self.weighted
-            .run(&self.costs, &self.goal_numbers, Some(start));
-        let mut question = Question {
-            steps: 0,
-            surprise: 0.0,
-            vantages: CellSet::new(),
-        };
-        for (mut cell, hop) in self.weighted.way(start) {
-            question.steps += 1;
+    /// The next hop to where the last plan of exploring leads; `None` when it has
+    /// arrived.
+    pub fn go_on(&self, open: &Passages, from: Cell) -> Option<Hop> {
+        self.search.hops(open, from).next()
+    }
+}
+
+/// For imagined matches: the same rules, thousands of times a decision.
+impl Planner {
+    /// Searches the whole maze for imagined matches to go on from. Returns what the way
+    /// to the goal costs from each of these cells, in steps times [`STEP`]; `None`
+    /// where there is none.
+    pub fn begin(&mut self, knowledge: &Knowledge, cells: &[Cell]) -> Vec<Option<u32>> {
+        let costs = [&knowledge.goal_costs, &knowledge.way_costs];
+        for (search, costs) in self.weighted.iter_mut().zip(costs) {
+            search.run(costs, &self.goal_numbers, None);
+        }
+        let cost = |&cell: &Cell| self.weighted[TO_GOAL].cost(self.grid.cell(cell));
+        cells.iter().map(cost).collect()
+    }
+
+    /// Begins an imagined match.
+    pub fn again(&mut self) {
+        for (search, guide) in self.guided.iter_mut().zip(&self.weighted) {
+            search.begin(guide);
+        }
+    }
+
+    /// Like [`toward_goal`](Self::toward_goal).
+    pub fn imagine_toward_goal(&mut self, knowledge: &Knowledge, from: Cell) -> Option<Hop> {
+        let search = &mut self.guided[TO_GOAL];
+        search.run(&knowledge.goal_costs, self.grid.cell(from));
+        search.advance()
+    }
+
+    /// The next hop of the way that was found last; `None` when a wall on it is now
+    /// known to stand.
+    pub fn on_toward_goal(&mut self, knowledge: &Knowledge) -> Option<Hop> {
+        for (mut cell, hop) in self.guided[TO_GOAL].way() {
             for _ in 0..hop.cells {
-                let wall = grid.wall(cell, hop.heading);
-                let beyond = grid.beyond(cell, hop.heading);
-                if belief.known(wall) == Known::Unknown {
-                    question.surprise -= ln(belief.chance(wall).max(CHANCE_MIN));
-                    let vantages = &mut question.vantages;
-                    add_vantages(grid, belief, cell, hop.heading.opposite(), vantages);
-                    add_vantages(grid, belief, beyond, hop.heading, vantages);
+                if knowledge.goal_costs[self.grid.wall(cell, hop.heading)] == IMPASSABLE {
+                    return None;
                 }
-                cell = beyond;
+                cell = self.grid.beyond(cell, hop.heading);
             }
         }
-        question
+        self.guided[TO_GOAL].advance()
     }
 
-    /// Gives every wall its cost.
-    fn price(&mut self, belief: &Belief, caution: f32) {
-        for wall in self.grid.inner_walls() {
-            self.costs[wall] = match belief.known(wall) {
-                Known::Open => 0,
-                Known::Closed => IMPASSABLE,
-                Known::Unknown => {
-                    let surprise = -ln(belief.chance(wall).clamp(CHANCE_MIN, 1.0));
-                    (caution * f32::from(STEP) * surprise + 0.5).min(WALL_COST_MAX) as u16
-                }
-            };
+    /// Like [`explore`](Self::explore).
+    pub fn imagine_explore(&mut self, knowledge: &Knowledge, from: Cell) -> Plan {
+        let Some(known_steps) = self.known_steps(&knowledge.open) else {
+            let hop = self.imagine_toward_goal(knowledge, from);
+            return hop.map_or(Plan::Stop, Plan::Drive);
+        };
+        let start = self.grid.cell(self.start);
+        self.guided[BETTER].run(&knowledge.way_costs, start);
+        let question = Question::of(knowledge, self.guided[BETTER].way());
+        self.weigh(knowledge, from, known_steps, &question)
+    }
+
+    /// Sees that an imagined maze, 1 by wall where it is open, has a way from start to
+    /// goal: opens the unknown walls that take the least surprise.
+    pub fn connect(&mut self, knowledge: &Knowledge, maze: &mut [u8]) {
+        let grid = self.grid;
+        let start = grid.cell(self.start);
+        let (search, costs) = (&mut self.repair, &mut self.repair_costs);
+        costs.clear();
+        costs.resize(grid.wall_count(), IMPASSABLE);
+        for wall in grid.inner_walls().filter(|&it| maze[it] == 1) {
+            costs[wall] = 0;
+        }
+        search.run(costs, &self.goal_numbers, Some(start));
+        if search.cost(start).is_some() {
+            return;
+        }
+        for wall in grid.inner_walls().filter(|&it| maze[it] == 0) {
+            costs[wall] = knowledge.goal_costs[wall];
+        }
+        search.run(costs, &self.goal_numbers, Some(start));
+        for (mut cell, hop) in search.way(start) {
+            for _ in 0..hop.cells {
+                maze[grid.wall(cell, hop.heading)] = 1;
+                cell = grid.beyond(cell, hop.heading);
+            }
         }
     }
 }
@@ -180,18 +246,40 @@ struct Question {
     vantages: CellSet,
 }
 
-/// Adds `cell` and the cells behind it, in direction `back`, as far as the view
-/// from there to `cell` is known to be free.
-fn add_vantages(
-    grid: Grid,
-    belief: &Belief,
-    mut cell: usize,
-    back: Heading,
-    vantages: &mut CellSet,
-) {
-    vantages.insert(grid.at(cell));
-    while belief.known(grid.wall(cell, back)) == Known::Open {
-        cell = grid.beyond(cell, back);
+impl Question {
+    fn of(knowledge: &Knowledge, way: impl Iterator<Item = (usize, Hop)>) -> Self {
+        let grid = knowledge.grid;
+        let mut question = Self {
+            steps: 0,
+            surprise: 0.0,
+            vantages: CellSet::new(),
+        };
+        for (mut cell, hop) in way {
+            question.steps += 1;
+            for _ in 0..hop.cells {
+                let wall = grid.wall(cell, hop.heading);
+                if knowledge.known[wall] == Known::Unknown {
+                    question.surprise += knowledge.surprise[wall];
+                    add_vantages(knowledge, cell, hop.heading, &mut question.vantages);
+                }
+                cell = grid.beyond(cell, hop.heading);
+            }
+        }
+        question
+    }
+}
+
+/// Adds the cells from which the unknown wall on that side of `cell` is seen: the
+/// cells on both sides of it, and those behind them as far as the view is known to be
+/// free.
+pub fn add_vantages(knowledge: &Knowledge, cell: usize, side: Heading, vantages: &mut CellSet) {
+    let grid = knowledge.grid;
+    let ends = [(cell, side.opposite()), (grid.beyond(cell, side), side)];
+    for (mut cell, away) in ends {
         vantages.insert(grid.at(cell));
+        while knowledge.known[grid.wall(cell, away)] == Known::Open {
+            cell = grid.beyond(cell, away);
+            vantages.insert(grid.at(cell));
+        }
     }
 }

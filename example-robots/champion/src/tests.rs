@@ -25,6 +25,26 @@ fn contest_mazes() {
     }
 }
 
+/// The same in `deep`.
+#[test]
+fn contest_mazes_deep() {
+    let expected = [
+        (1, "finished 89 + 18: 20.967"),
+        (2, "finished 121 + 22: 26.033"),
+        (3, "finished 128 + 25: 29.267"),
+    ];
+    let options = PlayOptions {
+        setting: 1,
+        ..PlayOptions::default()
+    };
+    let mazes = contest_mazes::contest_mazes();
+    for (number, expected) in expected {
+        if let Some((_, maze)) = mazes.iter().find(|it| it.0 == number) {
+            check(maze, &options, expected);
+        }
+    }
+}
+
 /// A budget that is just enough for the first way to the goal and back is enough.
 #[test]
 fn stops_exploring_in_time() {
@@ -61,7 +81,7 @@ fn a_goal_that_is_walled_in() {
 }
 
 #[test]
-#[should_panic(expected = "the setting 0")]
+#[should_panic(expected = "the settings 0 and 1")]
 fn an_unknown_setting() {
     Champion::start(&Briefing {
         setting: 2,

@@ -219,22 +219,14 @@ fn unique_names(sources: &[Source]) -> Vec<String> {
     sources.iter().map(unique).collect()
 }
 
-/// What a text that begins with `gen:` stands for.
-///
-/// # Errors
-///
-/// When it is no specification: an input like any other, wherever it stands.
-pub fn specification(spec: &str) -> Result<GenSpec, Failure> {
-    spec.parse().map_err(|error| {
+fn generated(spec: &str) -> Result<Vec<Source>, Failure> {
+    let parsed: GenSpec = spec.parse().map_err(|error| {
         Failure::input(format!(
             "failed to generate `{}`: {error}",
             shown(Path::new(spec))
         ))
-    })
-}
-
-fn generated(spec: &str) -> Result<Vec<Source>, Failure> {
-    let mazes = specification(spec)?.expand();
+    })?;
+    let mazes = parsed.expand();
     Ok(mazes
         .map(|(name, maze)| Source::Generated(name, maze))
         .collect())
