@@ -1,9 +1,10 @@
-//! Ctrl-C: a contest ends soon and prints what it has.
+//! Ctrl-C: a contest ends soon and prints what it has, generating ends at once or
+//! between two files, and the exit code says so.
 
 #![cfg(target_os = "linux")]
 
 use std::fs;
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -11,42 +12,90 @@ use serde_json::Value;
 
 use crate::binary::wasmouse;
 
-/// Waits until the threads that play matches have started.
-fn wait_for_matches(pid: u32) {
+/// Waits until something is so.
+fn wait(what: &str, mut is_so: impl FnMut() -> bool) {
     let begin = Instant::now();
-    let plays = || {
-        let threads = fs::read_dir(format!("/proc/{pid}/task")).expect("the process runs");
-        let mut names = threads.filter_map(|thread| {
-            // A thread may end while they are listed.
-            fs::read_to_string(thread.ok()?.path().join("comm")).ok()
-        });
-        names.any(|name| name.starts_with("matches-"))
-    };
-    while !plays() {
-        assert!(begin.elapsed() < Duration::from_secs(60), "no match begins");
+    while !is_so() {
+        assert!(begin.elapsed() < Duration::from_secs(60), "never: {what}");
         thread::sleep(Duration::from_millis(20));
+    }
+}
+
+/// Whether the process has a thread whose name begins like that.
+fn has_thread(pid: u32, name: &str) -> bool {
+    let threads = fs::read_dir(format!("/proc/{pid}/task")).expect("the process runs");
+    let mut names = threads.filter_map(|thread| {
+        // A thread may end while they are listed.
+        fs::read_to_string(thread.ok()?.path().join("comm")).ok()
+    });
+    names.any(|it| it.starts_with(name))
+}
+
+fn start(arguments: &[&str]) -> Child {
+    wasmouse()
+        .args(arguments)
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts")
+}
+
+/// Sends what Ctrl-C sends.
+fn interrupt(child: &Child) {
+    let kill = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(kill.expect("there is `kill`").success());
+}
+
+#[test]
+fn generating_mazes_ends_at_once() {
+    // 100,000 mazes in debug mode: minutes.
+    let mazes = "gen:stretches:12..=20:1..=20000";
+    for command in [&["maze", "check", "--summary"][..], &["run", "flood"]] {
+        let child = start(&[command, &[mazes]].concat());
+        wait("Ctrl-C is handled", || has_thread(child.id(), "ctrl-c"));
+        thread::sleep(Duration::from_millis(300));
+        let interrupted = Instant::now();
+        interrupt(&child);
+        let output = child.wait_with_output().expect("the program ends");
+        assert!(interrupted.elapsed() < Duration::from_secs(20));
+        assert_eq!(output.status.code(), Some(130), "{command:?}: {output:?}");
+        assert!(output.stdout.is_empty(), "{output:?}");
+    }
+}
+
+#[test]
+fn an_interrupted_folder_of_mazes_holds_whole_files() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let target = folder.path().join("mazes");
+    let path = target.to_str().expect("UTF-8");
+    let child = start(&["maze", "generate", "gen:tree:20:1..=50000", "-o", path]);
+    let files = || fs::read_dir(&target).map_or(0, Iterator::count);
+    wait("some files are written", || files() > 20);
+    interrupt(&child);
+    let output = child.wait_with_output().expect("the program ends");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{stderr}");
+    let told = format!("interrupted: wrote {} of 50000 mazes to {path}\n", files());
+    assert_eq!(stderr, told);
+    for file in fs::read_dir(&target).expect("the folder") {
+        let file = file.expect("an entry").path();
+        let text = fs::read_to_string(&file).expect("a file");
+        assert!(wasmouse::maze::format::parse(&text).is_ok(), "{file:?}");
     }
 }
 
 #[test]
 fn an_interrupted_contest_prints_what_was_played() {
     // 100,000 matches of up to 1000 steps: minutes.
-    let child = wasmouse()
-        .args(["run", "random", "gen:tree:20:1..=2", "--repeat", "50000"])
-        .args(["--json", "--no-cache"])
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the program starts");
-    let pid = child.id();
-    wait_for_matches(pid);
+    let robot = ["run", "random", "gen:tree:20:1..=2"];
+    let child = start(&[&robot[..], &["--repeat", "50000", "--json", "--no-cache"]].concat());
+    wait("matches begin", || has_thread(child.id(), "matches-"));
     thread::sleep(Duration::from_secs(1));
     let interrupted = Instant::now();
-    let kill = Command::new("kill")
-        .args(["-INT", &pid.to_string()])
-        .status();
-    assert!(kill.expect("there is `kill`").success());
+    interrupt(&child);
     let output = child.wait_with_output().expect("the program ends");
 
     let waited = interrupted.elapsed();

@@ -1,4 +1,9 @@
-//! Ctrl-C: the first asks running work to stop, the second stops the process.
+//! Ctrl-C: ends the process with its own exit code, at once or as soon as the work
+//! that is under way has been brought to an end.
+//!
+//! Work that has something to bring to an end, such as a contest with results to
+//! print, asks the flag of [`listen`] now and then. While nobody does, there is
+//! nothing to lose, and Ctrl-C ends the process at once.
 
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,28 +13,43 @@ use super::failure::Failure;
 
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
-/// What came of the attempt to listen, which a process can make only once.
-static LISTENING: OnceLock<Result<(), String>> = OnceLock::new();
+/// Whether somebody asks [`INTERRUPTED`].
+static HEARD: AtomicBool = AtomicBool::new(false);
 
-/// Starts to listen for Ctrl-C; the flag becomes true with the first one. Called
-/// again, it gives the same flag.
+/// What came of the attempt to handle the signal, which a process can make only once.
+static HANDLING: OnceLock<Result<(), String>> = OnceLock::new();
+
+/// Handles Ctrl-C from now on: by exiting, until somebody [`listen`]s.
+///
+/// That it cannot be handled is no failure as long as nobody listens.
+pub fn handle() {
+    let _ = handled();
+}
+
+/// Listens for Ctrl-C: from now on the first one makes the flag true, and only the
+/// second ends the process. Called again, it gives the same flag.
 ///
 /// # Errors
 ///
 /// When the signal cannot be handled.
 pub fn listen() -> Result<&'static AtomicBool, Failure> {
-    let listening = LISTENING.get_or_init(|| {
-        let handler = || {
-            if INTERRUPTED.swap(true, Ordering::Relaxed) {
-                std::process::exit(i32::from(Exit::Interrupted as u8));
-            }
-        };
-        ctrlc::set_handler(handler).map_err(|error| error.to_string())
-    });
-    match listening {
+    HEARD.store(true, Ordering::Relaxed);
+    match handled() {
         Ok(()) => Ok(&INTERRUPTED),
         Err(error) => Err(Failure::host(format!(
             "failed to listen for Ctrl-C: {error}"
         ))),
     }
+}
+
+fn handled() -> &'static Result<(), String> {
+    HANDLING.get_or_init(|| {
+        let handler = || {
+            let is_second = INTERRUPTED.swap(true, Ordering::Relaxed);
+            if is_second || !HEARD.load(Ordering::Relaxed) {
+                std::process::exit(i32::from(Exit::Interrupted as u8));
+            }
+        };
+        ctrlc::set_handler(handler).map_err(|error| error.to_string())
+    })
 }

@@ -219,14 +219,22 @@ fn unique_names(sources: &[Source]) -> Vec<String> {
     sources.iter().map(unique).collect()
 }
 
-fn generated(spec: &str) -> Result<Vec<Source>, Failure> {
-    let parsed: GenSpec = spec.parse().map_err(|error| {
+/// What a text that begins with `gen:` stands for.
+///
+/// # Errors
+///
+/// When it is no specification: an input like any other, wherever it stands.
+pub fn specification(spec: &str) -> Result<GenSpec, Failure> {
+    spec.parse().map_err(|error| {
         Failure::input(format!(
             "failed to generate `{}`: {error}",
             shown(Path::new(spec))
         ))
-    })?;
-    let mazes = parsed.expand();
+    })
+}
+
+fn generated(spec: &str) -> Result<Vec<Source>, Failure> {
+    let mazes = specification(spec)?.expand();
     Ok(mazes
         .map(|(name, maze)| Source::Generated(name, maze))
         .collect())

@@ -74,6 +74,10 @@ enum Command {
 /// Runs the command line of this process and returns its exit code.
 pub fn main() -> ExitCode {
     let cli = Cli::parse();
+    // A worker is ended by its supervisor, and must not start threads of its own.
+    if !matches!(cli.command, Command::Worker(_)) {
+        interrupt::handle();
+    }
     let outcome: Result<Exit, Failure> = match cli.command {
         Command::Demo(args) => demo::run(&args),
         Command::Run(args) => run::run(&args),

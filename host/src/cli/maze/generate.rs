@@ -1,11 +1,14 @@
 //! `wasmouse maze generate`: new mazes from a kind and a seed.
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 
 use super::super::exit::Exit;
 use super::super::failure::Failure;
+use super::super::interrupt;
+use super::super::mazes;
 use super::super::output::{self, Existing};
 use crate::maze::Maze;
 use crate::maze::format::{self, Format};
@@ -78,7 +81,7 @@ pub fn run(args: Args) -> Result<Exit, Failure> {
     };
     match &args.output {
         Some(path) if spec.count() > 1 || path.is_dir() => {
-            save_all(&spec, args.format, path, existing)?;
+            return save_all(&spec, args.format, path, existing);
         }
         Some(path) => output::save(path, only(&spec, args.format).as_bytes(), existing)?,
         None if spec.count() == 1 => output::print(&only(&spec, args.format))?,
@@ -106,7 +109,7 @@ fn specification(args: &Args) -> Result<GenSpec, Failure> {
             );
             return Err(Failure::usage(message).hint("put it into the specification"));
         }
-        return args.kind.parse().map_err(|error| unfit(args, &error));
+        return mazes::specification(&args.kind);
     }
     let size = args.size.unwrap_or(16);
     let first = args.seed.unwrap_or(1);
@@ -154,25 +157,24 @@ fn text(maze: &Maze, format: Format) -> String {
     format::print(maze, format).expect("every format holds a contest maze")
 }
 
-/// Writes all mazes into a folder, or none when a file is in the way.
+/// Writes all mazes into a folder, or none when a file is in the way. Ctrl-C ends it
+/// between two files.
 fn save_all(
     spec: &GenSpec,
     format: Format,
     folder: &Path,
     existing: Existing,
-) -> Result<(), Failure> {
+) -> Result<Exit, Failure> {
     std::fs::create_dir_all(folder).map_err(|error| {
         Failure::host(format!(
             "failed to make folder `{}`: {error}",
             folder.display()
         ))
     })?;
-    let files = || {
-        spec.expand()
-            .map(|(name, maze)| (folder.join(file_name(&name, format)), maze))
-    };
+    let file = |name: &str| folder.join(file_name(name, format));
+    let mut files = spec.names().map(|name| file(&name));
     if existing == Existing::Keep
-        && let Some((file, _)) = files().find(|(file, _)| file.exists())
+        && let Some(file) = files.find(|file| file.exists())
     {
         let message = format!(
             "failed to write `{}`: the file is there already",
@@ -180,11 +182,17 @@ fn save_all(
         );
         return Err(Failure::input(message).hint("replace it with --force"));
     }
-    for (file, maze) in files() {
-        output::save(&file, text(&maze, format).as_bytes(), existing)?;
+    let (count, folder) = (spec.count(), folder.display());
+    let interrupted = interrupt::listen()?;
+    for (written, (name, maze)) in spec.expand().enumerate() {
+        if interrupted.load(Ordering::Relaxed) {
+            tell!("interrupted: wrote {written} of {count} mazes to {folder}");
+            return Ok(Exit::Interrupted);
+        }
+        output::save(&file(&name), text(&maze, format).as_bytes(), existing)?;
     }
-    tell!("wrote {} mazes to {}", spec.count(), folder.display());
-    Ok(())
+    tell!("wrote {count} mazes to {folder}");
+    Ok(Exit::Success)
 }
 
 /// `gen:tree,loops=12:16:42` is kept in `tree-loops12-16-42.txt`.
@@ -265,15 +273,22 @@ mod tests {
                 "gen:tree:16:1 --seed 2",
                 "error: --seed does not go with a specification such as `gen:tree:16:1`\n\nhint: put it into the specification",
             ),
-            (
-                "gen:tree:16",
-                "error: cannot generate `gen:tree:16`: expected `gen:KIND:DIMENSION:SEED`, found `gen:tree:16`",
-            ),
         ] {
             let failure = specification(&args(line)).expect_err(line);
             assert_eq!(failure.to_string(), message, "{line}");
             assert_eq!(failure.exit(), Exit::Usage);
         }
+    }
+
+    /// As in every other command that takes one.
+    #[test]
+    fn a_bad_specification_is_bad_input() {
+        let failure = specification(&args("gen:tree:16")).expect_err("no seed");
+        assert_eq!(
+            failure.to_string(),
+            "error: failed to generate `gen:tree:16`: expected `gen:KIND:DIMENSION:SEED`, found `gen:tree:16`"
+        );
+        assert_eq!(failure.exit(), Exit::Input);
     }
 
     #[test]

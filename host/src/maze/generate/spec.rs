@@ -128,12 +128,23 @@ impl GenSpec {
     /// A name is the specification of that maze alone, in full: parsing it
     /// gives the same maze again.
     pub fn expand(&self) -> impl Iterator<Item = (String, Maze)> + use<> {
+        let kind = self.kind;
+        self.parts()
+            .map(move |(name, dimension, seed)| (name, generate(kind, dimension, seed)))
+    }
+
+    /// The names that [`expand`](Self::expand) gives the mazes, without generating them.
+    pub fn names(&self) -> impl Iterator<Item = String> + use<> {
+        self.parts().map(|(name, _, _)| name)
+    }
+
+    /// Name, dimension and seed of each maze.
+    fn parts(&self) -> impl Iterator<Item = (String, u8, u64)> + use<> {
         let Self { kind, seeds, .. } = self.clone();
         self.even_dimensions().flat_map(move |dimension| {
-            seeds.clone().map(move |seed| {
-                let name = format!("gen:{kind}:{dimension}:{seed}");
-                (name, generate(kind, dimension, seed))
-            })
+            seeds
+                .clone()
+                .map(move |seed| (format!("gen:{kind}:{dimension}:{seed}"), dimension, seed))
         })
     }
 

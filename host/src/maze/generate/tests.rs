@@ -92,6 +92,7 @@ fn names_of_expanded_mazes_make_them_again() {
     let many: GenSpec = "gen:tree,loops=30:12..=15:3..=4".parse().expect("valid");
     let mazes: Vec<_> = many.expand().collect();
     assert_eq!(mazes.len() as u64, many.count());
+    assert!(many.names().eq(mazes.iter().map(|(name, _)| name.clone())));
     for (name, maze) in mazes {
         let alone: GenSpec = name.parse().unwrap_or_else(|e| panic!("{name}: {e}"));
         assert_eq!(alone.expand().collect::<Vec<_>>(), [(name, maze)]);

@@ -1,0 +1,236 @@
+//! Good input for every format, and text that is none of them. Bad input of each
+//! format is in [`numbers`] and [`pictures`], what holds for all text in [`laws`].
+
+mod laws;
+mod numbers;
+mod pictures;
+
+use super::super::{Area, Cell, Heading, Maze, Walls};
+use super::*;
+
+/// Reads `text` and compares with `Ok` (format, start, goal origin, goal width)
+/// or the error message.
+fn check(text: &str, expected: Result<(Format, Cell, Area), &str>) {
+    let found = parse(text)
+        .map(|parsed| (parsed.format, parsed.maze.start(), parsed.maze.goal()))
+        .map_err(|error| error.to_string());
+    assert_eq!(found, expected.map_err(str::to_owned), "{text:?}");
+}
+
+fn center(dimension: u8) -> Area {
+    Area::center(dimension)
+}
+
+const ZERO: Cell = Cell::new(0, 0);
+const UDACITY: &str = "3\n3,5,6\n10,1,14\n9,5,12";
+const MAP: &str = "\
++---+---+---+
+|           |
++   +---+   +
+|       |   |
++---+   +   +
+|   |       |
++---+---+---+
+";
+
+/// The same maze as [`MAP`].
+const BLOCKS: &str = "\
+1111111
+1000001
+1011101
+1000101
+1110101
+1010001
+1111111
+";
+
+#[test]
+fn good_files() {
+    let udacity = Ok((Format::Udacity, ZERO, center(3)));
+    check(UDACITY, udacity);
+    check(&UDACITY.replace('\n', "\r\n"), udacity);
+    check(&format!("{UDACITY}\n\n  \n"), udacity);
+    check(&format!("\u{feff}{UDACITY}"), udacity);
+    check(&UDACITY.replace(',', " ,\t"), udacity);
+    check("3\n0,0,0\n0,0,0\n0,0,0", udacity);
+
+    let map = Ok((Format::Map, ZERO, center(3)));
+    check(MAP, map);
+    check(MAP.trim_end(), map);
+    check(&MAP.replace('\n', "\r\n"), map);
+    for post in ['.', '#', '*', '┼', ' '] {
+        check(&MAP.replace('+', &post.to_string()), map);
+    }
+    check(&MAP.replace(['|', '-'], "#"), map);
+
+    let picture = MAP.replace('+', "o");
+    check(&picture, Ok((Format::Competition, ZERO, center(3))));
+    let marked = picture
+        .replace("|       |   |", "|       | S |")
+        .replace("|           |", "| G   G     |");
+    let goal = Area::new(Cell::new(0, 2), 2, 1).expect("not empty");
+    check(&marked, Ok((Format::Competition, Cell::new(2, 1), goal)));
+    let marked = marked.replace('o', "+");
+    check(&marked, Ok((Format::Map, Cell::new(2, 1), goal)));
+
+    let blocks = Ok((Format::Blocks, ZERO, center(3)));
+    check(BLOCKS, blocks);
+    check(BLOCKS.trim_end(), blocks);
+    check(&BLOCKS.replace('\n', "\r\n"), blocks);
+    check(&format!("\u{feff}{BLOCKS}\n \n"), blocks);
+
+    let num = print(&parse(MAP).expect("a maze").maze, Format::Num).expect("no marks");
+    let backwards: Vec<&str> = num.lines().rev().collect();
+    let tabs = format!("  {}", num.replace(' ', "\t ").replace('\n', " \n"));
+    for text in [&num, &backwards.join("\n"), &tabs] {
+        check(text, Ok((Format::Num, ZERO, center(3))));
+    }
+}
+
+#[test]
+fn all_formats_describe_the_same_maze() {
+    let maze = parse(MAP).expect("a maze").maze;
+    assert!(maze.walls().is_open(Cell::new(1, 0), Heading::Up));
+    assert!(!maze.walls().is_open(Cell::new(1, 1), Heading::Up));
+    assert!(!maze.walls().is_open(Cell::new(0, 0), Heading::Right));
+    let texts = [
+        (Format::Udacity, "3\n0,3,6\n3,12,10\n9,5,12".to_owned()),
+        (Format::Map, MAP.to_owned()),
+        (Format::Blocks, BLOCKS.to_owned()),
+        (
+            Format::Num,
+            "0 0 1 1 1 1\n0 1 0 0 1 1\n0 2 1 0 0 1\n\
+             1 0 0 0 1 1\n1 1 1 1 0 0\n1 2 1 0 1 0\n\
+             2 0 0 1 1 0\n2 1 0 1 0 1\n2 2 1 1 0 0\n"
+                .to_owned(),
+        ),
+    ];
+    for (format, text) in texts {
+        assert_eq!(print(&maze, format), Ok(text.clone()));
+        assert_eq!(parse_as(&text, format).expect("a maze").maze, maze);
+    }
+}
+
+#[test]
+fn text_that_is_no_maze() {
+    for blank in ["", "\n", " \r\n\t\n", "\u{feff}"] {
+        check(blank, Err("the text is empty"));
+    }
+    let what = "line 1: expected the dimension alone, a row of posts such as `o---o`, \
+                the six numbers of a cell, or a row of blocks such as `11111`, found ";
+    let unknown = [
+        ("# My maze\n", "`# My maze`"),
+        ("\n12\n", "nothing"),
+        ("      \n12\n", "`      `"),
+        ("twelve", "`twelve`"),
+        ("-3", "`-3`"),
+        ("1111x", "`1111x`"),
+        ("o--o", "`o--o`"),
+        ("\u{1b}[2Jboo", "`\\u{1b}[2Jboo`"),
+        (
+            "{\"maze\": \"a very long line of JSON\"}",
+            "`{\"maze\": \"a very long li...`",
+        ),
+    ];
+    for (text, found) in unknown {
+        check(text, Err(&format!("{what}{found}")));
+    }
+    let huge = "1".repeat(100 << 20);
+    check(
+        &huge,
+        Err("104857600 bytes are more than any maze file has (at most 262144)"),
+    );
+}
+
+/// Puts an `x` in every place of a good file, one after the other: the error
+/// has to point there or, for a number, to its beginning.
+#[test]
+fn every_wrong_character_is_found_where_it_is() {
+    let maze = parse(MAP).expect("a maze").maze;
+    for format in [
+        Format::Udacity,
+        Format::Competition,
+        Format::Num,
+        Format::Blocks,
+    ] {
+        let good = print(&maze, format).expect("the usual start and goal");
+        for (number, good_line) in good.lines().enumerate() {
+            for at in 0..good_line.len() {
+                let mut lines: Vec<String> = good.lines().map(str::to_owned).collect();
+                lines[number].replace_range(at..=at, "x");
+                let wrong = lines.join("\n");
+                let Err(ParseError::Unexpected { line, column, .. }) = parse_as(&wrong, format)
+                else {
+                    panic!("line and column are known: {wrong}");
+                };
+                let begin = match format {
+                    Format::Competition | Format::Map | Format::Blocks => at,
+                    Format::Udacity | Format::Num => {
+                        let before = good_line[..at].rfind([',', ' ']);
+                        before.map_or(0, |separator| separator + 1)
+                    }
+                };
+                assert_eq!((line, column), (number + 1, begin + 1), "{wrong}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_given_format_is_not_guessed() {
+    let error = parse_as(MAP, Format::Competition).expect_err("posts are +");
+    assert_eq!(
+        error.to_string(),
+        "line 1, column 1: expected a post `o`, found `+`"
+    );
+    let parsed = parse_as(&MAP.replace('+', "o"), Format::Map).expect("any post");
+    assert_eq!(parsed.format, Format::Map);
+}
+
+#[test]
+fn only_competition_text_holds_marks() {
+    let walls = Walls::open(5);
+    let start = Maze::new(walls.clone(), Cell::new(1, 0), center(5)).expect("fits");
+    let room = Area::new(Cell::new(3, 3), 2, 1).expect("not empty");
+    let goal = Maze::new(walls, ZERO, room).expect("fits");
+    for format in [Format::Udacity, Format::Map, Format::Num, Format::Blocks] {
+        assert_eq!(
+            print(&start, format).expect_err("no mark").to_string(),
+            format!(
+                "the {format} format cannot hold start (1, 0): it has no mark, the start is (0, 0)"
+            )
+        );
+        assert_eq!(
+            print(&goal, format).expect_err("no mark").to_string(),
+            format!(
+                "the {format} format cannot hold a goal of 2 x 1 cells at (3, 3): \
+                 it has no mark, the goal is the centre (1 x 1 cells at (2, 2))"
+            )
+        );
+    }
+    for maze in [start, goal] {
+        let text = print(&maze, Format::Competition).expect("has marks");
+        assert_eq!(parse(&text).expect("a maze").maze, maze);
+    }
+}
+
+#[test]
+fn format_names_are_parsed() {
+    for format in Format::ALL {
+        assert_eq!(format.name().parse(), Ok(format));
+    }
+    assert_eq!(
+        "ma\tp"
+            .parse::<Format>()
+            .expect_err("no format")
+            .to_string(),
+        "unknown maze format `ma\\tp`, expected udacity, competition, map, num or blocks"
+    );
+}
+
+#[test]
+fn the_official_file_is_printed_byte_for_byte() {
+    let text = include_str!("../../../../mazes/test_maze_01.txt");
+    let maze = parse(text).expect("a maze").maze;
+    assert_eq!(print(&maze, Format::Udacity), Ok(text.to_owned()));
+}
