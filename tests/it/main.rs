@@ -34,6 +34,8 @@ mod memory;
 mod minnett;
 /// The prebuilt robots against their sources and their manifest.
 mod prebuilt;
+/// The check before compilation: limits, bombs, proposals.
+mod precheck;
 /// The README's tutorial and examples, run as they stand there.
 mod readme;
 /// Files that are no robots, and the reasons.

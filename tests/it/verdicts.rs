@@ -4,7 +4,7 @@
 use std::fs;
 
 use wasmouse::robot::{Recorder, Verdict};
-use wasmouse::sim::Limits;
+use wasmouse::sim::{AdmissionLimits, Limits};
 
 use crate::binary::{Ran, ran, wasmouse};
 use crate::hostile::{DRIVE_ON, IMPORT_LOG, Module, assert_unharmed, host, play, wasm};
@@ -23,6 +23,7 @@ const SMALL: Limits = Limits {
     tables_max: 4,
     journal_bytes_max: 1000,
     host_call_bytes_max: 4096,
+    admission: AdmissionLimits::DEFAULT,
 };
 
 /// Plays the robot and compares kind, phase and text of its fault.

@@ -2,6 +2,7 @@
 //! binary, small robots in text, and the hostile corpus.
 
 pub mod binary;
+pub mod bombs;
 pub mod composite;
 pub mod corpus;
 pub mod module;

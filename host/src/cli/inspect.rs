@@ -44,7 +44,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         .inspect(&bytes, specification.trust())
         .map_err(|error| robots::setup_failure(&error))?;
     robots::tell_sandbox(&referee);
-    let report = InspectionReport::new(&args.robot, &inspection);
+    let report = InspectionReport::new(&args.robot, &inspection, &referee.rules().limits);
     if args.json {
         output::print(&report.to_json())?;
     } else {

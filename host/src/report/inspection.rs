@@ -9,7 +9,8 @@
 //! }
 //! ```
 //!
-//! A refused file has `"admitted": false` and `refusal` with `kind`, `reason`
+//! `measures` is a list of `{"name": "functions", "found": 61, "max": 60000}`: what
+//! admission measures beside its limits. A refused file has `"admitted": false` and `refusal` with `kind`, `reason`
 //! and `hint`. `memory_bytes` and `table_elements` are initial sizes.
 
 use std::fmt;
@@ -18,7 +19,9 @@ use serde::Serialize;
 
 use super::{json, visible};
 use crate::robot::componentize::BinaryKind;
+use crate::robot::precheck::{Measure, Measures};
 use crate::robot::{Inspection, Refusal};
+use crate::sim::Limits;
 
 /// The version of this JSON; raised when a reader of the old one would go wrong.
 const SCHEMA: u32 = 1;
@@ -38,6 +41,8 @@ pub struct InspectionReport<'a> {
     memory_bytes: Option<u64>,
     tables: Option<u32>,
     table_elements: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    measures: Option<Vec<WireMeasure>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     refusal: Option<WireRefusal<'a>>,
     wit: Option<&'a str>,
@@ -60,9 +65,33 @@ impl<'a> WireRefusal<'a> {
     }
 }
 
+/// A measure beside its limit.
+#[derive(Serialize)]
+struct WireMeasure {
+    name: &'static str,
+    found: u64,
+    max: u64,
+    #[serde(skip)]
+    what: &'static str,
+}
+
+impl WireMeasure {
+    fn all(measures: &Measures, limits: &Limits) -> Vec<Self> {
+        Measure::all()
+            .map(|measure| Self {
+                name: measure.name(),
+                found: measures.get(measure),
+                max: measure.max(limits),
+                what: measure.what(),
+            })
+            .collect()
+    }
+}
+
 impl<'a> InspectionReport<'a> {
-    /// The report of an inspected robot under the name that the user gave it.
-    pub fn new(robot: &'a str, inspection: &'a Inspection) -> Self {
+    /// The report of an inspected robot under the name that the user gave it, with
+    /// the limits that it was inspected under.
+    pub fn new(robot: &'a str, inspection: &'a Inspection, limits: &Limits) -> Self {
         let shape = inspection.shape.as_ref();
         let needs = inspection.needs.as_ref();
         Self {
@@ -82,6 +111,7 @@ impl<'a> InspectionReport<'a> {
             memory_bytes: needs.map(|needs| needs.memory_bytes),
             tables: needs.map(|needs| needs.tables),
             table_elements: needs.map(|needs| needs.table_elements),
+            measures: shape.map(|shape| WireMeasure::all(&shape.measures, limits)),
             refusal: inspection.refusal.as_ref().map(WireRefusal::new),
             wit: inspection.wit.as_deref(),
         }
@@ -112,6 +142,15 @@ impl fmt::Display for InspectionReport<'_> {
         if let (Some(tables), Some(elements)) = (self.tables, self.table_elements) {
             let elements = format!("the largest {elements} elements at the start");
             writeln!(f, "tables    {tables}, {elements}")?;
+        }
+        if let Some(measures) = &self.measures {
+            writeln!(f, "measures  found, limit")?;
+            for WireMeasure {
+                found, max, what, ..
+            } in measures
+            {
+                writeln!(f, "  {found:>9} {max:>10} {what}")?;
+            }
         }
         if let Some(wit) = self.wit {
             writeln!(f, "world")?;

@@ -5,7 +5,8 @@
 
 use std::borrow::Cow;
 
-use super::componentize::{BinaryKind, componentize};
+use super::componentize::{BinaryKind, ComponentizeError, componentize};
+use super::precheck::precheck;
 use super::refusal::CONTROLLER;
 use super::shape::{self, Shape};
 use super::{Refusal, guest};
@@ -34,11 +35,22 @@ pub(super) fn read<'a>(bytes: &'a [u8], limits: &Limits) -> Result<ReadComponent
     }
     let kind = shape::binary_kind(bytes)?;
     let bytes = match kind {
-        BinaryKind::CoreModule => Cow::Owned(componentize(bytes)?),
+        BinaryKind::CoreModule => {
+            precheck(bytes, limits).map_err(in_core_module)?;
+            Cow::Owned(componentize(bytes)?)
+        }
         BinaryKind::Component | BinaryKind::Other => Cow::Borrowed(bytes),
     };
-    let shape = Shape::read(&bytes)?;
+    let shape = precheck(&bytes, limits)?;
     Ok(ReadComponent { kind, bytes, shape })
+}
+
+/// A core module that is not valid is told apart from a component that is not.
+fn in_core_module(refusal: Refusal) -> Refusal {
+    match refusal {
+        Refusal::Invalid(message) => ComponentizeError::Malformed { message }.into(),
+        other => other,
+    }
 }
 
 /// Imports and exports by name, for refusals that say what to do; their types

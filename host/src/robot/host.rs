@@ -6,7 +6,7 @@ use wasmtime::{Engine, Store};
 use super::bindings::RobotPre;
 use super::engine::Clock;
 use super::guest::{self, Guest};
-use super::{Cache, Digest, HostError, Refusal, admission, controller, engine, over_limit};
+use super::{Cache, Digest, HostError, Refusal, admission, controller, engine};
 use crate::sim::Limits;
 
 /// Everything that robots need to run in this process: one engine with its pool
@@ -108,7 +108,7 @@ impl Host {
     pub(super) unsafe fn load(&self, code: &[u8], digest: Digest) -> Result<Robot, Refusal> {
         // SAFETY: the caller's promise is the one that wasmtime asks for.
         let compiled = unsafe { Component::deserialize(&self.engine, code) }
-            .map_err(|error| over_limit::refusal(&error, &self.limits))?;
+            .map_err(|error| Refusal::Invalid(format!("{error:#}")))?;
         let pre = self.link(&compiled)?;
         Ok(Robot {
             pre,
@@ -158,7 +158,7 @@ impl Host {
 
     fn compile_now(&self, component: &[u8]) -> Result<Component, Refusal> {
         Component::from_binary(&self.engine, component)
-            .map_err(|error| over_limit::refusal(&error, &self.limits))
+            .map_err(|error| Refusal::Invalid(format!("{error:#}")))
     }
 
     fn link(&self, component: &Component) -> Result<RobotPre<Guest>, Refusal> {

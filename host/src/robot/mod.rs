@@ -9,6 +9,7 @@
 
 pub mod bundled;
 pub mod componentize;
+pub mod precheck;
 pub mod worker;
 
 mod admission;
@@ -27,7 +28,6 @@ mod host;
 mod inspection;
 mod journal;
 mod limiter;
-mod over_limit;
 mod play;
 mod referee;
 mod refusal;

@@ -1,6 +1,7 @@
 //! [`Refusal`]: why a file is not admitted as a robot, with what to do about it.
 
 use super::componentize::ComponentizeError;
+use super::precheck::Place;
 
 /// Why a file was not admitted. Says nothing about how the robot would play.
 #[derive(Debug, thiserror::Error)]
@@ -45,13 +46,17 @@ pub enum Refusal {
         /// As [`Refusal::hint`] there.
         hint: String,
     },
-    /// The component needs more than the ruleset allows before it even runs.
-    #[error("the component needs {what}, and the limit is {max}")]
+    /// The file holds more than the ruleset allows, before anything of it runs.
+    #[error("the file has {found} {what}, and the limit is {max} ({at})")]
     OverLimit {
-        /// What and how much.
-        what: String,
+        /// What is counted, as the words after a number.
+        what: &'static str,
+        /// The value found up to that place; the whole file may have more.
+        found: u64,
         /// The limit.
         max: u64,
+        /// Where.
+        at: Place,
     },
 }
 
@@ -118,7 +123,8 @@ impl Refusal {
             }
             Self::Told { hint, .. } => hint,
             Self::OverLimit { .. } => {
-                "build it with fewer or smaller memories, tables and instances"
+                "`wasmouse inspect` shows every measure of a robot beside its limit; generated code \
+                 and unrolled tables are better written as loops over data"
             }
         }
     }

@@ -1,20 +1,22 @@
-//! [`Shape`]: what a file is and what it imports and exports, found by reading
-//! it, without compiling anything.
+//! [`Shape`]: what a file is and what it imports and exports, as far as that is
+//! known before anything is compiled; [`precheck`](super::precheck) reads it.
 
 use serde::{Deserialize, Serialize};
-use wasmparser::{Parser, Payload};
 use wasmtime::{Engine, Precompiled};
 
 use super::Refusal;
 use super::componentize::BinaryKind;
+use super::precheck::Measures;
 
-/// What a component declares at its outermost level.
+/// What a component declares at its outermost level, and how large it is.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shape {
     /// Names of imports, in order.
     pub imports: Vec<String>,
     /// Names of exports, in order.
     pub exports: Vec<String>,
+    /// What was measured in it.
+    pub measures: Measures,
 }
 
 /// What kind of WebAssembly binary these bytes are.
@@ -56,54 +58,5 @@ fn look_alike(bytes: &[u8]) -> &'static str {
         "a text file"
     } else {
         "a binary file of another kind"
-    }
-}
-
-impl Shape {
-    /// Reads the names at the outermost level of a component.
-    ///
-    /// # Errors
-    ///
-    /// [`Refusal::Invalid`] when the file is malformed, or its types are nested too deep.
-    pub(super) fn read(component: &[u8]) -> Result<Self, Refusal> {
-        let invalid = |error: wasmparser::BinaryReaderError| Refusal::Invalid(error.to_string());
-        let mut shape = Self::default();
-        // Nested modules and components are stepped over: only the outermost
-        // names count.
-        let mut depth = 0_u32;
-        for payload in Parser::new(0).parse_all(component) {
-            match payload.map_err(invalid)? {
-                Payload::ModuleSection { .. } | Payload::ComponentSection { .. } => depth += 1,
-                Payload::End(_) => depth = depth.saturating_sub(1),
-                Payload::ComponentImportSection(section) if depth == 0 => {
-                    for import in section {
-                        shape
-                            .imports
-                            .push(import.map_err(invalid)?.name.name.to_owned());
-                    }
-                }
-                Payload::ComponentExportSection(section) if depth == 0 => {
-                    for export in section {
-                        shape
-                            .exports
-                            .push(export.map_err(invalid)?.name.name.to_owned());
-                    }
-                }
-                // This parser refuses types that are nested too deep, at any depth of
-                // components; that of wasmtime would overflow the stack.
-                Payload::ComponentTypeSection(section) => {
-                    for item in section {
-                        item.map_err(invalid)?;
-                    }
-                }
-                Payload::CoreTypeSection(section) => {
-                    for item in section {
-                        item.map_err(invalid)?;
-                    }
-                }
-                _ => {}
-            }
-        }
-        Ok(shape)
     }
 }

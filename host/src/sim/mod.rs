@@ -13,7 +13,7 @@ mod simulation;
 mod trace;
 
 pub use action::{Action, Sensors};
-pub use limits::Limits;
+pub use limits::{AdmissionLimits, Limits};
 pub use ruleset::{BudgetScope, Ruleset};
 pub use score::Score;
 pub use simulation::{Counts, End, Run, Simulation};

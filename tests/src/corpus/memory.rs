@@ -34,7 +34,7 @@ fn memories() -> Vec<Case> {
             "initial-memory-of-4-gib",
             refused(
                 "over-limit",
-                "the component needs a memory of 4294967296 bytes, and the limit is 268435456",
+                "the file has 4294967296 bytes of one linear memory at the start, and the limit is 268435456 (...)",
             ),
             || with(r#"(memory (export "memory") 65536)"#, ""),
         )
@@ -44,7 +44,7 @@ fn memories() -> Vec<Case> {
             "initial-memory-one-page-over",
             refused(
                 "over-limit",
-                "the component needs a memory of 268500992 bytes, and the limit is 268435456",
+                "the file has 268500992 bytes of one linear memory at the start, and the limit is 268435456 (...)",
             ),
             || with(r#"(memory (export "memory") 4097)"#, ""),
         ),
@@ -99,7 +99,7 @@ fn memories() -> Vec<Case> {
             "9-memories",
             refused(
                 "over-limit",
-                "the component needs 9 memories, and the limit is 8",
+                "the file has 9 linear memories, and the limit is 8 (...)",
             ),
             || with(MEMORY, &"(memory 1)".repeat(8)),
         ),
@@ -128,7 +128,7 @@ fn tables() -> Vec<Case> {
             "table-of-10-million",
             refused(
                 "over-limit",
-                "the component needs a table of 10000000 elements, and the limit is 100000",
+                "the file has 10000000 elements of one table at the start, and the limit is 100000 (...)",
             ),
             || with(MEMORY, "(table 10000000 funcref)"),
         ),
@@ -181,7 +181,7 @@ fn tables() -> Vec<Case> {
             "100-tables",
             refused(
                 "over-limit",
-                "the component needs 100 tables, and the limit is 16",
+                "the file has 100 tables, and the limit is 16 (...)",
             ),
             || with(MEMORY, &"(table 1 funcref)".repeat(100)),
         ),

@@ -10,7 +10,7 @@ use super::matches::read_exactly;
 use super::pipes::Pipes;
 use super::wire::{self, CompileOrder, Compiled, Examined, Hello, Sandbox};
 use crate::robot::componentize::BinaryKind;
-use crate::robot::{Digest, HostError, Refusal, admission, engine, inspection, over_limit};
+use crate::robot::{Digest, HostError, Refusal, admission, engine, inspection};
 use crate::sim::Limits;
 
 /// Stack of the threads that read and compile: nested things recurse.
@@ -99,7 +99,7 @@ fn examine(engine: &Engine, file: &[u8], order: &CompileOrder) -> (Examined, Vec
     if !order.compile {
         return (examined, Vec::new());
     }
-    match compile(engine, &read.bytes, &order.limits) {
+    match compile(engine, &read.bytes) {
         Ok(code) => {
             examined.result = Compiled::Code {
                 length: u64::try_from(code.len()).unwrap_or(u64::MAX),
@@ -114,10 +114,10 @@ fn examine(engine: &Engine, file: &[u8], order: &CompileOrder) -> (Examined, Vec
     }
 }
 
-fn compile(engine: &Engine, component: &[u8], limits: &Limits) -> Result<Vec<u8>, Refusal> {
+fn compile(engine: &Engine, component: &[u8]) -> Result<Vec<u8>, Refusal> {
     engine
         .precompile_component(component)
-        .map_err(|error| over_limit::refusal(&error, limits))
+        .map_err(|error| Refusal::Invalid(format!("{error:#}")))
 }
 
 fn known_kind(file: &[u8]) -> Option<BinaryKind> {

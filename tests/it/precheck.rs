@@ -1,0 +1,324 @@
+//! The check before compilation: every limit holds exactly, files that would take a
+//! compiler minutes are refused at once, and damage never panics.
+
+use std::time::Instant;
+
+use proptest::prelude::*;
+use wasmouse::robot::bundled::bundled;
+use wasmouse::robot::precheck::{Measure, Measures, precheck};
+use wasmouse::sim::Limits;
+use wasmouse_tests::{bombs, corpus};
+
+/// The most that a decision may take here, unoptimised and beside other tests: far
+/// more than it does, and far less than compiling would.
+const SECONDS_MAX: u64 = 30;
+
+#[track_caller]
+fn check(file: &[u8], expected: &str) {
+    let start = Instant::now();
+    let refusal = precheck(file, &Limits::default()).expect_err(expected);
+    let seconds = start.elapsed().as_secs();
+    let told = format!("{}: {refusal}", refusal.name());
+    assert!(told.starts_with(expected), "{told}\nexpected {expected}");
+    assert!(seconds < SECONDS_MAX, "{told}: {seconds} s");
+}
+
+#[test]
+fn bombs_are_refused_for_what_makes_them_one() {
+    let nested = "over-limit: the file has 65 loops inside each other, and the limit is 64 \
+        (function 0 `bomb`, byte ";
+    check(&bombs::nested_loops(1000), nested);
+    check(&bombs::nested_loops(10_000), nested);
+    check(
+        &bombs::nested_blocks(10_000),
+        "over-limit: the file has 4001 blocks inside each other, and the limit is 4000 ",
+    );
+    for (file, what) in [
+        (
+            bombs::locals_and_branches(10_000, 10_000),
+            "variables times blocks in a function",
+        ),
+        (
+            bombs::branch_tables(100, 1000),
+            "blocks of control flow in a function",
+        ),
+        (
+            bombs::branch_tables(20, 2000),
+            "blocks of control flow in a function",
+        ),
+        (
+            bombs::ways_out(3000, 30),
+            "values carried by the branches of a function",
+        ),
+        (
+            bombs::typed_blocks(10_000, 10),
+            "variables times blocks in a function",
+        ),
+        (
+            bombs::indirect_calls(30_000),
+            "blocks of control flow in a function",
+        ),
+        (
+            bombs::stacked_values(30_000, 1),
+            "values on the operand stack",
+        ),
+        (
+            bombs::stacked_values(490, 200),
+            "ms of estimated time to compile a function",
+        ),
+        (bombs::empty_functions(1_000_000), "functions"),
+        (bombs::long_function(7_600_000), "bytes in a function"),
+        (
+            bombs::wide_calls(1000, 10),
+            "parameters and results of one function or block",
+        ),
+        (
+            bombs::simd(150_000),
+            "MiB of estimated memory to compile a function",
+        ),
+        (bombs::constant(100_000), "bytes in a constant expression"),
+        (
+            bombs::globals(1_000_000),
+            "items of one kind in a core module",
+        ),
+        (
+            bombs::exports(1_000_000),
+            "items of one kind in a core module",
+        ),
+        (bombs::types(1_000_000), "function types in a core module"),
+        (bombs::long_name(90_000), "bytes in a name"),
+        (bombs::exponential(30), "core instances"),
+        (
+            bombs::nested_components(900),
+            "components inside each other",
+        ),
+        (bombs::doubled_tuple(16), "parts in a component type"),
+        (bombs::wide_record(9_000), "parts in a component type"),
+    ] {
+        let start = Instant::now();
+        let refusal = precheck(&file, &Limits::default()).expect_err(what);
+        let told = refusal.to_string();
+        assert_eq!(refusal.name(), "over-limit", "{told}");
+        assert!(told.contains(&format!(" {what}, and")), "{told}\n{what}");
+        assert!(start.elapsed().as_secs() < SECONDS_MAX, "{told}");
+    }
+}
+
+/// Files in which each measure is at least 1.
+fn samples() -> Vec<Vec<u8>> {
+    vec![
+        bombs::branch_tables(30, 30),
+        bombs::ways_out(100, 10),
+        bombs::nested_loops(20),
+        bombs::typed_blocks(100, 5),
+        bombs::stacked_values(100, 50),
+        bombs::empty_functions(1000),
+        bombs::long_function(60_000),
+        bombs::exponential(4),
+        bombs::doubled_tuple(5),
+        bombs::nested_components(5),
+        bombs::long_name(50),
+        bombs::simd(2000),
+        bombs::types(9),
+        bombs::constant(9),
+    ]
+}
+
+/// The limit of one measure.
+fn set(limits: &mut Limits, measure: Measure, max: u64) {
+    let admission = &mut limits.admission;
+    let small = u32::try_from(max).expect("samples are small");
+    match measure {
+        Measure::CoreInstances => limits.core_instances_max = small,
+        Measure::Memories => limits.memories_max = small,
+        Measure::MemoryBytes => limits.memory_bytes_max = max,
+        Measure::Tables => limits.tables_max = small,
+        Measure::TableElements => limits.table_elements_max = max,
+        Measure::ComponentDepth => admission.component_depth_max = small,
+        Measure::ComponentItems => admission.component_items_max = small,
+        Measure::ExpandedItems => admission.expanded_items_max = small,
+        Measure::AdapterValues => admission.adapter_values_max = small,
+        Measure::TypeParts => admission.type_parts_max = small,
+        Measure::NameBytes => admission.name_bytes_max = small,
+        Measure::CustomSections => admission.custom_sections_max = small,
+        Measure::ModuleItems => admission.module_items_max = small,
+        Measure::FunctionTypes => admission.function_types_max = small,
+        Measure::Functions => admission.functions_max = small,
+        Measure::Values => admission.values_max = small,
+        Measure::ConstBytes => admission.const_bytes_max = small,
+        Measure::Locals => admission.locals_max = small,
+        Measure::FunctionBytes => admission.function_bytes_max = small,
+        Measure::Nesting => admission.nesting_max = small,
+        Measure::LoopNesting => admission.loop_nesting_max = small,
+        Measure::Operands => admission.operands_max = small,
+        Measure::BranchTargets => admission.branch_targets_max = small,
+        Measure::Blocks => admission.blocks_max = small,
+        Measure::Cells => admission.cells_max = max,
+        Measure::Carried => admission.carried_max = small,
+        Measure::FunctionMemory => admission.function_memory_mib_max = small,
+        Measure::FunctionWork => admission.function_work_ms_max = small,
+        Measure::Work => admission.work_ms_max = small,
+    }
+}
+
+/// A file that has exactly as much as the limit is admitted, and refused when the
+/// limit is 1 lower.
+#[test]
+fn every_limit_is_exact() {
+    let custom = [
+        &b"\0asm\x01\0\0\0"[..],
+        &b"\0\x02\x01a\0\x02\x01a\0\x02\x01a"[..],
+    ]
+    .concat();
+    let samples: Vec<(Vec<u8>, Measures)> = samples()
+        .into_iter()
+        .chain([custom])
+        .map(|file| {
+            let shape = precheck(&file, &Limits::default()).expect("a small file");
+            (file, shape.measures)
+        })
+        .collect();
+    for measure in Measure::all() {
+        let (file, measures) = samples
+            .iter()
+            .max_by_key(|(_, measures)| measures.get(measure))
+            .expect("there are samples");
+        let found = measures.get(measure);
+        assert!(found > 0, "no sample has any {}", measure.name());
+        let mut limits = Limits::default();
+        set(&mut limits, measure, found);
+        assert_eq!(measure.max(&limits), found, "{}", measure.name());
+        let shape = precheck(file, &limits).expect("exactly at the limit");
+        assert_eq!(shape.measures, *measures);
+        set(&mut limits, measure, found - 1);
+        let told = precheck(file, &limits)
+            .expect_err(measure.name())
+            .to_string();
+        let expected = format!(" {}, and the limit is {} (", measure.what(), found - 1);
+        assert!(told.contains(&expected), "{told}\n{expected}");
+    }
+}
+
+#[test]
+fn bundled_robots_are_far_from_every_limit() {
+    let limits = Limits::default();
+    for robot in bundled() {
+        let shape = precheck(robot.component, &limits).expect(robot.name);
+        for measure in Measure::all() {
+            let (found, max) = (shape.measures.get(measure), measure.max(&limits));
+            // A robot has one memory and one or two tables, of few.
+            assert!(
+                found * 4 <= max,
+                "{}: {found} {}",
+                robot.name,
+                measure.name()
+            );
+        }
+    }
+}
+
+#[test]
+fn a_refusal_names_module_and_function() {
+    let text = r#"(component (core module) (core module
+        (func) (func $hot (export "x") (param i32) (br_table 0 0 0 0 0 (local.get 0)))))"#;
+    let mut limits = Limits::default();
+    limits.admission.branch_targets_max = 3;
+    let file = wat::parse_str(text).expect("written here");
+    let told = precheck(&file, &limits).expect_err("4 targets").to_string();
+    assert!(
+        told.starts_with(
+            "the file has 4 targets in a branch table, and the limit is 3 \
+             (core module 1, function 1 `hot`, byte "
+        ),
+        "{told}"
+    );
+}
+
+/// Robots of the corpus that have to play are not refused for their size.
+#[test]
+fn robots_that_play_are_within_the_limits() {
+    let mut over = Vec::new();
+    for case in corpus::cases() {
+        let plays = |expected: &serde_json::Value| expected.get("refusal").is_none();
+        if !case.expected.iter().all(plays) {
+            continue;
+        }
+        for file in case.files() {
+            if let Err(refusal) = precheck(&file, &Limits::default()) {
+                over.push(format!("{}: {refusal}", case.name));
+            }
+        }
+    }
+    assert_eq!(over, [""; 0]);
+}
+
+/// What is instantiated has to be known, or it could not be counted.
+#[test]
+fn foreign_components_are_not_instantiated() {
+    for text in [
+        r#"(component (component (import "c" (component $c)) (instance (instantiate $c))))"#,
+        r#"(component (component (import "m" (core module $m)) (core instance (instantiate $m))))"#,
+        r#"(component (component $a (component $b) (export "b" (component $b)))
+            (instance $i (instantiate $a)) (alias export $i "b" (component $b))
+            (instance (instantiate $b)))"#,
+    ] {
+        let file = wat::parse_str(text).expect("written here");
+        check(
+            &file,
+            "invalid: the component is not valid: it instantiates",
+        );
+    }
+}
+
+/// Proposals that the engine does not have are refused here, and by name.
+#[test]
+fn proposals_that_are_off() {
+    for (text, words) in [
+        ("(module (memory i64 1))", "memory64"),
+        ("(module (memory 1 1 shared))", "threads"),
+        ("(module (tag))", "exceptions"),
+        ("(module (type (struct)))", "gc"),
+        ("(module (table 1 externref))", "gc"),
+        ("(module (memory 1 (pagesize 1)))", "page size"),
+        (
+            "(module (func (result v128) v128.const i64x2 0 0 v128.const i64x2 0 0
+                i8x16.relaxed_swizzle))",
+            "relaxed SIMD",
+        ),
+        ("(component (type (stream u8)))", "async"),
+        ("(component (type (future u8)))", "async"),
+        ("(component (core func (canon thread.index)))", "thread"),
+        ("(component (type (list u8 4)))", "fixed-length"),
+        ("(component (type error-context))", "error"),
+    ] {
+        let Ok(file) = wat::parse_str(text) else {
+            panic!("{text}: not encoded");
+        };
+        let refusal = precheck(&file, &Limits::default()).expect_err(text);
+        assert_eq!(refusal.name(), "invalid", "{text}: {refusal}");
+        let told = refusal.to_string();
+        assert!(told.contains(" at byte "), "{told}");
+        let lower = told.to_lowercase();
+        assert!(lower.contains(&words.to_lowercase()), "{text}: {told}");
+    }
+}
+
+proptest! {
+    /// Damaged files are refused or admitted; nothing panics.
+    #[test]
+    fn damage_never_panics(
+        which in any::<prop::sample::Index>(),
+        damage in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),
+    ) {
+        let samples = [
+            bombs::branch_tables(3, 3), bombs::typed_blocks(3, 3), bombs::exponential(3),
+            bombs::doubled_tuple(3), bombs::nested_loops(3), bombs::constant(3),
+        ];
+        let mut file = which.get(&samples).clone();
+        for (at, byte) in damage {
+            let at = at.index(file.len());
+            file[at] = byte;
+        }
+        drop(precheck(&file, &Limits::default()));
+    }
+}
