@@ -19,7 +19,7 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/champion.wasm"),
-        sha256: "2772c8f7e7e8c0b429226ce5cf19a87c2936554ddb08004d8a2d9f99fd8b910e",
+        sha256: "02bee37037195be26792342fd56f5525f252a6a382fe389434a5ca4a3c2564e7",
     },
     BundledRobot {
         name: "count-expansion",
