@@ -20,6 +20,8 @@ mod conformance;
 mod determinism;
 /// Every bundled robot: native and component alike, and who has to finish.
 mod every_robot;
+/// Processes killed, disks full, compiled robots damaged.
+mod faults;
 /// Maze files: reading, round trips, and a survey counted in another way.
 mod formats;
 /// Robots in WebAssembly text, and a good one beside them.

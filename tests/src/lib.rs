@@ -6,3 +6,4 @@ pub mod bombs;
 pub mod composite;
 pub mod corpus;
 pub mod module;
+pub mod program;

@@ -5,6 +5,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::thread::{self, ScopedJoinHandle};
 use std::time::{Duration, Instant};
 
 use clap::Parser;
@@ -75,34 +76,78 @@ fn is_meant(cli: &Cli, case: &Case) -> bool {
     is_played && (cli.only.is_empty() || cli.only.iter().any(fits))
 }
 
-/// Plays the cases and says whether all is well.
+/// Plays the cases, in both modes at the same time, and says whether all is well.
 fn play(cli: &Cli, cases: &[Case]) -> io::Result<bool> {
-    let program = cli.wasmouse.clone().unwrap_or_else(binary::path);
-    let bench = Bench::new(&program)?;
     let is_meant = |mode: &Mode| cli.mode.is_none_or(|only| only == *mode);
     println!(
         "{:<6} {:<44} {:<9} {:<34} {:>6} {:>5} {:>5} {:>7}  ok",
         "number", "name", "mode", "verdict", "s", "MiB", "all", "ns/fuel"
     );
     let begin = Instant::now();
-    let (mut count, mut bad) = (0, 0);
-    for mode in Mode::ALL.into_iter().filter(is_meant) {
-        for case in cases {
-            let judgement = bench.judge(case, mode)?;
-            print(cli, case, mode, &judgement);
-            count += 1;
-            bad += usize::from(!judgement.is_well());
-        }
+    let totals: Vec<Total> = thread::scope(|scope| {
+        let modes: Vec<_> = Mode::ALL
+            .into_iter()
+            .filter(is_meant)
+            .map(|mode| scope.spawn(move || play_in(cli, cases, mode)))
+            .collect();
+        let join = |mode: ScopedJoinHandle<'_, _>| {
+            mode.join()
+                .unwrap_or_else(|_| Err(io::Error::other("a thread panicked")))
+        };
+        modes.into_iter().map(join).collect::<io::Result<_>>()
+    })?;
+    for total in &totals {
+        println!(
+            "{}: {} played in {:.0} s, {} not as expected; at most {} MiB in the process that \
+             is started, {} MiB in all",
+            total.mode.name(),
+            total.count,
+            total.time.as_secs_f64(),
+            total.bad,
+            total.first_bytes >> 20,
+            total.all_bytes >> 20,
+        );
     }
-    println!(
-        "{count} played in {:.0} s, {bad} not as expected",
-        begin.elapsed().as_secs_f64()
-    );
-    Ok(bad == 0)
+    println!("{:.0} s", begin.elapsed().as_secs_f64());
+    Ok(totals.iter().all(|total| total.bad == 0))
 }
 
-fn print(cli: &Cli, case: &Case, mode: Mode, judgement: &Judgement) {
-    println!(
+/// What came of all cases in a mode.
+struct Total {
+    mode: Mode,
+    count: u32,
+    bad: u32,
+    time: Duration,
+    first_bytes: u64,
+    all_bytes: u64,
+}
+
+fn play_in(cli: &Cli, cases: &[Case], mode: Mode) -> io::Result<Total> {
+    let program = cli.wasmouse.clone().unwrap_or_else(binary::path);
+    let bench = Bench::new(&program)?;
+    let begin = Instant::now();
+    let mut total = Total {
+        mode,
+        count: 0,
+        bad: 0,
+        time: Duration::ZERO,
+        first_bytes: 0,
+        all_bytes: 0,
+    };
+    for case in cases {
+        let judgement = bench.judge(case, mode)?;
+        println!("{}", row(cli, case, mode, &judgement));
+        total.count += 1;
+        total.bad += u32::from(!judgement.is_well());
+        total.first_bytes = total.first_bytes.max(judgement.first_bytes);
+        total.all_bytes = total.all_bytes.max(judgement.all_bytes);
+    }
+    total.time = begin.elapsed();
+    Ok(total)
+}
+
+fn row(cli: &Cli, case: &Case, mode: Mode, judgement: &Judgement) -> String {
+    let mut row = format!(
         "{:<6} {:<44} {:<9} {:<34} {:>6.2} {:>5} {:>5} {:>7}  {}",
         case.numbers_text(),
         case.name,
@@ -115,11 +160,12 @@ fn print(cli: &Cli, case: &Case, mode: Mode, judgement: &Judgement) {
         if judgement.is_well() { "ok" } else { "NO" },
     );
     if cli.reasons && !judgement.reason.is_empty() {
-        println!("       {}", judgement.reason);
+        row += &format!("\n       {}", judgement.reason);
     }
     for problem in &judgement.problems {
-        println!("       expected {}; {problem}", judgement.expected);
+        row += &format!("\n       expected {}; {problem}", judgement.expected);
     }
+    row
 }
 
 /// Where a robot used so much fuel that the rest does not count.

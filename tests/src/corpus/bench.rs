@@ -8,13 +8,17 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use serde_json::{Value, json};
-use tempfile::TempDir;
+use wasmouse::robot::bundled::find;
 
 use super::case::{Case, Mode, fits};
 use super::measure::{Measured, measure};
+use crate::program::Program;
 
-/// The good robot and the maze of every case.
+/// The good robot of every case, which comes with the host, and the same as a stranger's
+/// file, which plays where the hostile robots did.
 const GOOD: &str = "flood";
+const GOOD_FILE: &str = "good";
+/// Where they play.
 const MAZE: &str = "test_maze_01";
 
 /// The most that the process which the user starts may take where robots run in
@@ -24,11 +28,10 @@ const SUPERVISOR_MEGABYTES_MAX: u64 = 200;
 /// How a robot's failure shows in the exit code.
 const EXIT_ROBOT: i32 = 4;
 
-/// A folder to play in, with the program under a path of its own.
+/// A program to play with.
 #[derive(Debug)]
 pub struct Bench {
-    folder: TempDir,
-    program: PathBuf,
+    program: Program,
     /// What the good robot does alone, by the further arguments.
     alone: RefCell<BTreeMap<String, Vec<Value>>>,
 }
@@ -59,22 +62,15 @@ impl Bench {
     ///
     /// # Errors
     ///
-    /// When the folder cannot be made.
+    /// When the folder or the good robot in it cannot be made.
     pub fn new(wasmouse: &Path) -> io::Result<Self> {
-        // Beside the program, so that a link to it is enough.
-        let parent = wasmouse.parent().unwrap_or(Path::new("."));
-        let folder = tempfile::Builder::new()
-            .prefix("corpus-")
-            .tempdir_in(parent.canonicalize()?)?;
-        let program = folder.path().join("wasmouse");
-        if fs::hard_link(wasmouse, &program).is_err() {
-            fs::copy(wasmouse, &program)?;
-        }
-        Ok(Self {
-            folder,
-            program,
+        let bench = Self {
+            program: Program::new(wasmouse)?,
             alone: RefCell::default(),
-        })
+        };
+        let good = find(GOOD).ok_or(io::ErrorKind::NotFound)?;
+        fs::write(bench.path(GOOD_FILE), good.component)?;
+        Ok(bench)
     }
 
     /// Plays a case.
@@ -90,6 +86,7 @@ impl Bench {
         arguments.push("--json".into());
         arguments.extend(robots.iter().map(|name| format!("--robot={name}.wasm")));
         // After the hostile ones: with one thread, it plays on what they leave.
+        arguments.push(format!("--robot={GOOD_FILE}.wasm"));
         arguments.push(format!("--robot={GOOD}"));
         let measured = self.run(&arguments, time_max)?;
 
@@ -109,8 +106,8 @@ impl Bench {
             arguments.push("--log".into());
             let shown = self.run(&arguments, time_max)?;
             judgement.problems.extend(self.ceilings(case, mode, &shown));
-            let page = fs::read_to_string(self.folder.path().join(PAGE)).unwrap_or_default();
-            let _ = fs::remove_file(self.folder.path().join(PAGE));
+            let page = fs::read_to_string(self.program.folder().join(PAGE)).unwrap_or_default();
+            let _ = fs::remove_file(self.program.folder().join(PAGE));
             judgement.texts(&shown, &page);
         }
         for name in robots {
@@ -136,7 +133,7 @@ impl Bench {
     }
 
     fn path(&self, robot: &str) -> PathBuf {
-        self.folder.path().join(format!("{robot}.wasm"))
+        self.program.folder().join(format!("{robot}.wasm"))
     }
 
     fn arguments(&self, case: &Case, mode: Mode) -> Vec<String> {
@@ -171,7 +168,7 @@ impl Bench {
     }
 
     fn run(&self, arguments: &[String], time_max: Duration) -> io::Result<Measured> {
-        measure(&self.program, arguments, self.folder.path(), time_max)
+        measure(&self.program, arguments, time_max)
     }
 
     fn ceilings(&self, case: &Case, mode: Mode, measured: &Measured) -> Vec<String> {
@@ -245,11 +242,12 @@ impl Judgement {
             self.problems
                 .push(format!("exit code {status:?} instead of {exit}"));
         }
-        if matches_of(&document, GOOD) != alone {
-            self.problems.push(format!(
-                "the next match is not as ever: {:?}",
-                matches_of(&document, GOOD)
-            ));
+        for good in [GOOD_FILE, GOOD] {
+            let matches = matches_of(&document, good);
+            if matches != alone {
+                self.problems
+                    .push(format!("{good} does not play as ever: {matches:?}"));
+            }
         }
         self.harmless("the JSON", &measured.stdout);
         self.harmless("standard error", &measured.stderr);
@@ -306,13 +304,18 @@ fn entries_of(document: &Value, name: &str) -> Vec<Value> {
     }
 }
 
+/// The matches of a robot, without its name.
 fn matches_of(document: &Value, name: &str) -> Vec<Value> {
     let matches = document["matches"].as_array();
     let of_robot = matches
         .into_iter()
         .flatten()
         .filter(|it| it["robot"] == json!(name));
-    of_robot.cloned().collect()
+    let nameless = of_robot.cloned().map(|mut result| {
+        result["robot"].take();
+        result
+    });
+    nameless.collect()
 }
 
 fn fuel_of(entry: &Value) -> u64 {

@@ -27,7 +27,7 @@ impl Mode {
 }
 
 /// What makes the files of a case.
-type Make = Box<dyn Fn() -> Vec<Vec<u8>>>;
+type Make = Box<dyn Fn() -> Vec<Vec<u8>> + Send + Sync>;
 
 /// One thing that a robot may try.
 pub struct Case {
@@ -59,7 +59,7 @@ pub struct Case {
 pub const MEGABYTES_MAX: u64 = 200;
 
 /// The ceiling of time where a case names no other, in seconds.
-const SECONDS_MAX: u64 = 20;
+const SECONDS_MAX: u64 = 60;
 
 impl Case {
     /// A robot and what has to become of it.
@@ -67,7 +67,7 @@ impl Case {
         numbers: &'static [u8],
         name: impl Into<String>,
         expected: Value,
-        make: impl Fn() -> Vec<u8> + 'static,
+        make: impl Fn() -> Vec<u8> + Send + Sync + 'static,
     ) -> Self {
         Self::series(numbers, name, expected, move || vec![make()])
     }
@@ -77,7 +77,7 @@ impl Case {
         numbers: &'static [u8],
         name: impl Into<String>,
         expected: Value,
-        make: impl Fn() -> Vec<Vec<u8>> + 'static,
+        make: impl Fn() -> Vec<Vec<u8>> + Send + Sync + 'static,
     ) -> Self {
         Self {
             numbers,

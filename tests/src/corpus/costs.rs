@@ -64,14 +64,12 @@ const ENDLESS: [Endless; 15] = [
         numbers: &[17],
         name: "grow-by-nothing",
         body: "(drop (memory.grow (i32.const 0)))",
-        is_long: true,
         ..SMALL
     },
     Endless {
         numbers: &[18],
         name: "failing-growth",
         body: "(drop (memory.grow (i32.const 1)))",
-        is_long: true,
         ..SMALL
     },
     Endless {
@@ -79,7 +77,6 @@ const ENDLESS: [Endless; 15] = [
         name: "failing-table-growth",
         rest: "(table 1 1 funcref)",
         body: "(drop (table.grow 0 (ref.null func) (i32.const 1)))",
-        is_long: true,
         ..SMALL
     },
     Endless {

@@ -173,7 +173,7 @@ fn recursion() -> Vec<Case> {
             },
         ),
         Case::new(&[10], "recursion-with-large-frames", overflow(), || {
-            let count = 10_000;
+            let count = 1900;
             let locals = "i64 ".repeat(count);
             let set: String = (0..count)
                 .map(|local| format!("(local.set {local} (i64.load (i32.const {})))", local * 6))
@@ -233,9 +233,9 @@ fn burn(fuel: u64) -> String {
 fn fuel_to_the_last_unit() -> Vec<Case> {
     // Entering the function takes 1, asking whether it is the first step 3, noting
     // that 2, and the answer 1. A component reaches the host through a shim that
-    // takes 6.
+    // takes 11.
     const AROUND: u64 = 7;
-    const LOG: u64 = 4 + 6 + 200;
+    const LOG: u64 = 4 + 11 + 200;
     let log = "(call $log (i32.const 0) (i32.const 0) (i32.const 0))";
     let ends = |used: u64| json!({"verdict": "budget-used-up", "exploration_steps": 1000, "step_fuel_max": used});
     let case = |numbers, name: &str, expected, fuel: u64, then: String| {

@@ -1,16 +1,16 @@
 //! [`measure`]: a command's time, the memory of all its processes, and whether one of
 //! them stays behind.
 //!
-//! Processes are told by their executable: the caller runs the program under a path
-//! that nobody else uses, so every process of it is found, whoever its parent is.
 //! Linux alone says these things (`/proc`); elsewhere memory is told as zero.
 
 use std::fs::{self, File};
 use std::io;
 use std::path::Path;
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::ExitStatus;
 use std::thread;
 use std::time::{Duration, Instant};
+
+use crate::program::Program;
 
 /// What a command did and needed.
 #[derive(Debug)]
@@ -40,26 +40,22 @@ const SAMPLE: Duration = Duration::from_millis(2);
 /// must not take its machine with it.
 const BYTES_MAX: u64 = 6 << 30;
 
-/// How long processes may outlive the first.
-const GRACE: Duration = Duration::from_secs(2);
-
-/// Runs the program with what it prints kept in files of that folder.
+/// Runs the program with what it prints kept in files of its folder.
 ///
 /// # Errors
 ///
 /// When it cannot be run, or its output cannot be kept.
 pub fn measure(
-    program: &Path,
+    program: &Program,
     arguments: &[String],
-    folder: &Path,
     time_max: Duration,
 ) -> io::Result<Measured> {
+    let folder = program.folder();
     let (stdout, stderr) = (folder.join("stdout"), folder.join("stderr"));
     let begin = Instant::now();
-    let mut child = Command::new(program)
+    let mut child = program
+        .command()
         .args(arguments)
-        .current_dir(folder)
-        .stdin(Stdio::null())
         .stdout(File::create(&stdout)?)
         .stderr(File::create(&stderr)?)
         .spawn()?;
@@ -70,13 +66,14 @@ pub fn measure(
         }
         memory.sample(program, child.id());
         if begin.elapsed() > time_max || memory.all > BYTES_MAX {
-            stop(program, &mut child)?;
+            child.kill()?;
+            child.wait()?;
             break None;
         }
         thread::sleep(SAMPLE);
     };
     let time = begin.elapsed();
-    let left_behind = left_behind(program);
+    let left_behind = program.left_behind();
     let text =
         |path: &Path| fs::read(path).map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
     Ok(Measured {
@@ -90,37 +87,6 @@ pub fn measure(
     })
 }
 
-/// Ends the program and everything that it started.
-fn stop(program: &Path, child: &mut Child) -> io::Result<()> {
-    child.kill()?;
-    child.wait()?;
-    kill_all(program);
-    Ok(())
-}
-
-/// Waits until no process of the program is there, and counts those that stay.
-fn left_behind(program: &Path) -> usize {
-    let begin = Instant::now();
-    loop {
-        let left = processes(program).len();
-        if left == 0 || begin.elapsed() > GRACE {
-            kill_all(program);
-            return left;
-        }
-        thread::sleep(SAMPLE);
-    }
-}
-
-fn kill_all(program: &Path) {
-    for process in processes(program) {
-        // Without `libc`, the system's own command; what has ended meanwhile is fine.
-        let _ = Command::new("kill")
-            .args(["-KILL", &process.to_string()])
-            .stderr(Stdio::null())
-            .status();
-    }
-}
-
 #[derive(Default)]
 struct Memory {
     first: u64,
@@ -128,9 +94,9 @@ struct Memory {
 }
 
 impl Memory {
-    fn sample(&mut self, program: &Path, first: u32) {
+    fn sample(&mut self, program: &Program, first: u32) {
         let mut sum = 0;
-        for process in processes(program) {
+        for process in program.processes() {
             let peak = peak_bytes(process);
             if process == first {
                 self.first = self.first.max(peak);
@@ -139,20 +105,6 @@ impl Memory {
         }
         self.all = self.all.max(sum);
     }
-}
-
-/// The processes that run this executable.
-fn processes(program: &Path) -> Vec<u32> {
-    let Ok(entries) = fs::read_dir("/proc") else {
-        return Vec::new();
-    };
-    entries
-        .filter_map(|entry| entry.ok()?.file_name().to_str()?.parse().ok())
-        .filter(|process| {
-            fs::read_link(format!("/proc/{process}/exe"))
-                .is_ok_and(|executable| executable == program)
-        })
-        .collect()
 }
 
 /// The largest resident memory that a process has had, in bytes; 0 when it is gone.

@@ -10,6 +10,7 @@ mod abi;
 mod bench;
 mod binary;
 mod case;
+mod compile;
 mod costs;
 mod execution;
 mod files;
@@ -36,6 +37,7 @@ pub fn cases() -> Vec<Case> {
         shape::cases(),
         names::cases(),
         types::cases(),
+        compile::cases(),
         game::cases(),
     ]
     .into_iter()
@@ -61,6 +63,18 @@ mod tests {
             .map(|case| case.name)
             .collect();
         assert_eq!(failed, [""; 0]);
+    }
+
+    #[test]
+    fn every_number_has_a_case() {
+        // From 83 on they are about the host's surroundings, and in `tests/it/faults.rs`
+        // and `tests/it/workers.rs`.
+        let numbers: BTreeSet<u8> = cases()
+            .iter()
+            .flat_map(|case| case.numbers)
+            .copied()
+            .collect();
+        assert_eq!(numbers, (1..=82).collect());
     }
 
     #[test]

@@ -11,7 +11,7 @@ use super::wire::{
 };
 use crate::maze::Maze;
 use crate::robot::{
-    self, Digest, Game, Host, HostError, Outcome, Recorder, Robot, STACK_BYTES, Verdict,
+    self, Digest, Game, Host, HostError, Outcome, Recorder, Refusal, Robot, STACK_BYTES, Verdict,
 };
 use crate::sim::Ruleset;
 
@@ -133,6 +133,9 @@ impl Table {
                 put(&mut self.robots, slot, robot);
                 Loaded::Ready(needs)
             }
+            // The robot was valid when it was compiled; this is about its code, as of
+            // another version of wasmtime.
+            Err(Refusal::Invalid(_)) => Loaded::Damaged,
             Err(refusal) => Loaded::Refused(refusal.into()),
         }
     }

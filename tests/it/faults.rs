@@ -1,0 +1,490 @@
+//! What happens around the matches: processes killed or stopped at any time, several at
+//! work in one cache, a full disk, compiled robots damaged on disk. Nothing is scored
+//! wrongly, nothing is lost, no process stays behind, no file is half written.
+//!
+//! The tests that are ignored by default do the same 200 times; `cargo test -p
+//! wasmouse-tests --test it -- --ignored faults` runs them.
+
+#![cfg(target_os = "linux")]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use wasmouse::robot::Digest;
+use wasmouse::robot::bundled::find;
+use wasmouse_tests::program::{Program, signal};
+
+use crate::binary;
+
+/// Robots from files, which play in workers, and a bundled one in enough mazes to be in
+/// the middle of something most of the time.
+const CONTEST: [&str; 8] = [
+    "run",
+    "--json",
+    "--jobs=2",
+    "flood-file.wasm",
+    "dfs-file.wasm",
+    "wall-follower",
+    "gen:braid:16:1..=40",
+    "--repeat=2",
+];
+
+/// The program beside the robots of the contest.
+fn program() -> Program {
+    let program = Program::new(&binary::path()).expect("a folder beside the binary");
+    for name in ["flood", "dfs"] {
+        let component = find(name).expect("a bundled robot").component;
+        let file = program.folder().join(format!("{name}-file.wasm"));
+        fs::write(file, component).expect("a file");
+    }
+    program
+}
+
+/// The contest with compiled robots in that folder.
+fn contest(program: &Program, cache: &str) -> Command {
+    let mut command = program.command();
+    command.args(CONTEST).args(["--cache", cache]);
+    command
+}
+
+fn started(command: &mut Command) -> Child {
+    command
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts")
+}
+
+/// What the contest gives when nothing happens to it, and how long it takes.
+fn undisturbed(program: &Program) -> (String, Duration) {
+    let begin = Instant::now();
+    let output = contest(program, "undisturbed").output().expect("it runs");
+    let time = begin.elapsed();
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let mut trusted = contest(program, "trusted");
+    let trusted = trusted.arg("--trust").output().expect("it runs");
+    let stdout = text(&output.stdout);
+    assert_eq!(
+        stdout,
+        text(&trusted.stdout),
+        "the same in and out of workers"
+    );
+    (stdout, time)
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).expect("programs print text")
+}
+
+#[track_caller]
+fn assert_undisturbed(output: &Output, expected: &str, what: &str) {
+    let stderr = text(&output.stderr);
+    assert!(
+        output.status.success(),
+        "{what}: {}\n{stderr}",
+        output.status
+    );
+    assert_eq!(text(&output.stdout), expected, "{what}");
+    assert_eq!(stderr, "", "{what}");
+}
+
+/// Numbers that look random and are the same everywhere.
+struct Dice(u64);
+
+impl Dice {
+    fn below(&mut self, end: u64) -> u64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (self.0 >> 33) % end
+    }
+
+    /// A part of that time.
+    fn part(&mut self, time: Duration) -> Duration {
+        Duration::from_micros(self.below(u64::try_from(time.as_micros()).expect("a short time")))
+    }
+}
+
+/// Ends a worker, whichever it meets, at any time of a contest.
+fn kill_workers(rounds: u64) {
+    let program = program();
+    let (expected, time) = undisturbed(&program);
+    let mut dice = Dice(1);
+    let mut killed = 0;
+    for round in 0..rounds {
+        // Every other round compiles anew.
+        let cache = if round % 2 == 0 {
+            format!("killed-{round}")
+        } else {
+            "undisturbed".into()
+        };
+        let child = started(&mut contest(&program, &cache));
+        thread::sleep(dice.part(time));
+        let workers: Vec<u32> = program
+            .processes()
+            .into_iter()
+            .filter(|process| *process != child.id())
+            .collect();
+        if !workers.is_empty() {
+            let which = dice.below(workers.len() as u64);
+            signal(workers[usize::try_from(which).expect("a few")], "KILL");
+            killed += 1;
+        }
+        let output = child.wait_with_output().expect("it ends");
+        assert_undisturbed(&output, &expected, &format!("round {round}"));
+        assert_eq!(program.left_behind(), 0, "round {round}");
+    }
+    println!("{killed} workers killed in {rounds} rounds");
+    assert!(
+        killed * 4 > rounds,
+        "only {killed} workers were met in {rounds} rounds"
+    );
+}
+
+#[test]
+fn a_killed_worker_changes_nothing() {
+    kill_workers(8);
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn a_killed_worker_changes_nothing_200_times() {
+    kill_workers(200);
+}
+
+/// Ends the supervisor at any time: its workers go with it, and what it leaves on disk
+/// is as good as new for the next.
+fn kill_supervisors(rounds: u64) {
+    let program = program();
+    let (expected, time) = undisturbed(&program);
+    let mut dice = Dice(2);
+    for round in 0..rounds {
+        let mut child = started(&mut contest(&program, "shared"));
+        thread::sleep(dice.part(time));
+        child.kill().expect("it may have ended");
+        child.wait().expect("it ends");
+        assert_eq!(program.left_behind(), 0, "round {round}");
+        let output = contest(&program, "shared").output().expect("it runs");
+        assert_undisturbed(&output, &expected, &format!("round {round}"));
+    }
+}
+
+#[test]
+fn a_killed_supervisor_takes_its_workers_along() {
+    kill_supervisors(5);
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn a_killed_supervisor_takes_its_workers_along_200_times() {
+    kill_supervisors(200);
+}
+
+#[test]
+fn a_page_is_there_as_a_whole_or_not_at_all() {
+    let program = program();
+    let (_, time) = undisturbed(&program);
+    let page = program.folder().join("page.html");
+    let command = || {
+        let mut command = program.command();
+        let arguments = CONTEST.iter().filter(|argument| **argument != "--json");
+        command
+            .args(arguments)
+            .args(["--cache", "undisturbed", "--html", "page.html"]);
+        command
+    };
+    let whole = command().output().expect("it runs");
+    assert!(whole.status.success(), "{}", text(&whole.stderr));
+    let expected = fs::read(&page).expect("a page");
+    let mut dice = Dice(3);
+    let mut there = 0;
+    for _ in 0..10 {
+        fs::remove_file(&page).expect("the page of the round before");
+        let mut child = started(&mut command());
+        thread::sleep(time * 3 / 4 + dice.part(time / 2));
+        child.kill().expect("it may have ended");
+        child.wait().expect("it ends");
+        match fs::read(&page) {
+            Ok(bytes) => {
+                there += 1;
+                assert!(
+                    bytes == expected,
+                    "{} of {} bytes",
+                    bytes.len(),
+                    expected.len()
+                );
+            }
+            Err(_) => fs::write(&page, "").expect("a file for the next round"),
+        }
+    }
+    println!("the page was there {there} times of 10");
+}
+
+/// Stopped as a laptop is that goes to sleep: every clock goes on meanwhile.
+#[test]
+fn a_contest_that_was_stopped_goes_on() {
+    let program = program();
+    let (expected, time) = undisturbed(&program);
+    let mut dice = Dice(4);
+    for round in 0..3 {
+        let child = started(&mut contest(&program, "undisturbed"));
+        thread::sleep(dice.part(time));
+        for process in program.processes() {
+            signal(process, "STOP");
+        }
+        thread::sleep(Duration::from_secs(1));
+        for process in program.processes() {
+            signal(process, "CONT");
+        }
+        let output = child.wait_with_output().expect("it ends");
+        assert_undisturbed(&output, &expected, &format!("round {round}"));
+    }
+}
+
+/// The same job several times at once, with one cache that is empty at first.
+#[test]
+fn the_same_contest_at_the_same_time() {
+    let program = program();
+    let (expected, _) = undisturbed(&program);
+    let children: Vec<Child> = (0..4)
+        .map(|_| started(&mut contest(&program, "same")))
+        .collect();
+    for child in children {
+        let output = child.wait_with_output().expect("it ends");
+        assert_undisturbed(&output, &expected, "at the same time");
+    }
+    assert_eq!(program.left_behind(), 0);
+}
+
+/// The same robot under two names gets the same results twice.
+#[test]
+fn the_same_robot_twice() {
+    let program = program();
+    let copy = program.folder().join("copy.wasm");
+    fs::copy(program.folder().join("flood-file.wasm"), copy).expect("a copy");
+    let mut command = program.command();
+    command.args([
+        "run",
+        "--json",
+        "flood-file.wasm",
+        "copy.wasm",
+        "test_maze_01",
+        "--no-cache",
+    ]);
+    let output = command.output().expect("it runs");
+    let document: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let mut matches = document["matches"].as_array().expect("a list").clone();
+    for result in &mut matches {
+        result.as_object_mut().expect("an object").remove("robot");
+    }
+    assert_eq!(matches.len(), 2);
+    assert_eq!(matches[0], matches[1]);
+}
+
+/// Bytes of a compiled robot before its code: their digest.
+const DIGEST_BYTES: usize = 32;
+
+/// What can happen to a compiled robot on disk. The digest in front of it is that of
+/// the damaged code where `is_consistent`: then only wasmtime can tell.
+struct Damage {
+    name: &'static str,
+    is_consistent: bool,
+    damage: fn(&mut Vec<u8>),
+}
+
+const DAMAGES: [Damage; 5] = [
+    Damage {
+        name: "empty",
+        is_consistent: false,
+        damage: Vec::clear,
+    },
+    Damage {
+        name: "cut in the digest",
+        is_consistent: false,
+        damage: |it| it.truncate(7),
+    },
+    Damage {
+        name: "cut in the middle",
+        is_consistent: false,
+        damage: |it| it.truncate(it.len() / 2),
+    },
+    Damage {
+        name: "of another version",
+        is_consistent: true,
+        damage: |it| of_another_version(it),
+    },
+    Damage {
+        name: "of no kind",
+        is_consistent: true,
+        damage: |it| it[DIGEST_BYTES..].fill(0x5a),
+    },
+];
+
+/// Changes the version of wasmtime that the code says it is for: its first number,
+/// behind the version of the format and a length.
+fn of_another_version(entry: &mut [u8]) {
+    let version = wasmouse::robot::WASMTIME_VERSION;
+    let (major, _) = version.split_once('.').expect("three numbers");
+    let length = u8::try_from(major.len()).expect("a short number");
+    let marker = [&[0, length], major.as_bytes()].concat();
+    let found = entry.windows(marker.len()).position(|it| it == marker);
+    let at = found.expect("the code says its version");
+    entry[at + 2] ^= 1;
+}
+
+#[test]
+fn damaged_code_is_compiled_anew() {
+    let program = program();
+    for mode in [&[][..], &["--trust"]] {
+        let cache = program.folder().join(format!("damaged{}", mode.concat()));
+        let play = || {
+            let mut command = program.command();
+            command.args([
+                "run",
+                "--json",
+                "flood-file.wasm",
+                "test_maze_01",
+                "--cache",
+            ]);
+            command.arg(&cache).args(mode).output().expect("it runs")
+        };
+        let first = play();
+        let expected = text(&first.stdout);
+        assert_undisturbed(&first, &expected, "undamaged");
+        let entry = only_entry(&cache);
+        let good = fs::read(&entry).expect("the entry");
+        let check = |bytes: &[u8], what: &str| {
+            fs::write(&entry, bytes).expect("the entry");
+            assert_undisturbed(&play(), &expected, what);
+            assert!(
+                fs::read(only_entry(&cache)).expect("the entry") == good,
+                "{what}: kept"
+            );
+        };
+        for Damage {
+            name,
+            is_consistent,
+            damage,
+        } in &DAMAGES
+        {
+            let mut bytes = good.clone();
+            damage(&mut bytes);
+            if *is_consistent {
+                let digest = Digest::of(&bytes[DIGEST_BYTES..]);
+                bytes[..DIGEST_BYTES].copy_from_slice(digest.as_bytes());
+            }
+            check(&bytes, &format!("{name} {mode:?}"));
+        }
+        let mut dice = Dice(5);
+        for _ in 0..20 {
+            let bit = dice.below(good.len() as u64 * 8);
+            let mut bytes = good.clone();
+            bytes[usize::try_from(bit / 8).expect("an index")] ^= 1 << (bit % 8);
+            check(&bytes, &format!("bit {bit} flipped {mode:?}"));
+        }
+    }
+}
+
+/// The only file in that cache.
+fn only_entry(cache: &Path) -> std::path::PathBuf {
+    let mut entries = fs::read_dir(cache).expect("a cache");
+    let entry = entries.next().expect("an entry").expect("an entry").path();
+    assert!(entries.next().is_none(), "one entry in {}", cache.display());
+    entry
+}
+
+/// A small file system of its own, where this user may make one.
+struct SmallDisk(std::path::PathBuf);
+
+impl SmallDisk {
+    fn new(folder: &Path, kilobytes: u32) -> Option<Self> {
+        fs::create_dir(folder).expect("a folder");
+        let mounted = Command::new("mount")
+            .args([
+                "-t",
+                "tmpfs",
+                "-o",
+                &format!("size={kilobytes}k,mode=700"),
+                "tmpfs",
+            ])
+            .arg(folder)
+            .stderr(Stdio::null())
+            .status()
+            .is_ok_and(|status| status.success());
+        if !mounted {
+            println!("skipped: this user may not mount a small disk");
+            return None;
+        }
+        Some(Self(folder.to_owned()))
+    }
+
+    fn files(&self) -> usize {
+        fs::read_dir(&self.0).expect("the disk").count()
+    }
+}
+
+impl Drop for SmallDisk {
+    fn drop(&mut self) {
+        let _ = Command::new("umount").arg(&self.0).status();
+    }
+}
+
+/// The cache has no room: robots are compiled anew each time, and it is told.
+#[test]
+fn a_full_disk_in_the_cache_is_told_and_changes_nothing() {
+    let program = program();
+    for mode in [&[][..], &["--trust"]] {
+        let folder = program.folder().join(format!("small{}", mode.concat()));
+        let Some(disk) = SmallDisk::new(&folder, 16) else {
+            return;
+        };
+        let run = |cache: &[&str]| {
+            let mut command = program.command();
+            command.args(["run", "--json", "flood-file.wasm", "test_maze_01"]);
+            let output = command.args(cache).args(mode).output().expect("it runs");
+            assert!(output.status.success(), "{}", text(&output.stderr));
+            (text(&output.stdout), text(&output.stderr))
+        };
+        let (expected, _) = run(&["--no-cache"]);
+        let (found, warning) = run(&["--cache", folder.to_str().expect("a path in text")]);
+        assert_eq!(found, expected, "{mode:?}");
+        let told = "warning: failed to use the cache of compiled robots at ";
+        assert!(warning.starts_with(told), "{mode:?}: {warning}");
+        assert!(warning.contains("No space left"), "{mode:?}: {warning}");
+        assert_eq!(disk.files(), 0, "{mode:?}: nothing half written stays");
+    }
+}
+
+/// Results have no room: the command fails, says so, and leaves no half file.
+#[test]
+fn a_full_disk_for_results_is_a_failure() {
+    let program = program();
+    let folder = program.folder().join("results");
+    let Some(disk) = SmallDisk::new(&folder, 4) else {
+        return;
+    };
+    let mut command = program.command();
+    command.args([
+        "run",
+        "flood-file.wasm",
+        "test_maze_01",
+        "--no-cache",
+        "--html",
+    ]);
+    let output = command
+        .arg(folder.join("page.html"))
+        .output()
+        .expect("it runs");
+    let stderr = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(5), "{stderr}");
+    assert!(stderr.contains("No space left"), "{stderr}");
+    assert_eq!(disk.files(), 0, "nothing half written stays: {stderr}");
+    assert!(
+        text(&output.stdout).contains("finished"),
+        "the table was printed"
+    );
+}
