@@ -7,6 +7,7 @@
 use std::path::{Path, PathBuf};
 
 pub mod corpus;
+pub mod fuzz;
 pub mod manifest;
 pub mod robots;
 pub mod sources;

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use xtask::{corpus, repository, robots, verify};
+use xtask::{corpus, fuzz, repository, robots, verify};
 
 /// Automation for the wasmouse repository.
 #[derive(Parser)]
@@ -31,6 +31,13 @@ enum Command {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<OsString>,
     },
+    /// Feed changed inputs to what reads a stranger's bytes; `--help` tells more.
+    #[command(disable_help_flag = true)]
+    Fuzz {
+        /// Arguments for the program `fuzz`.
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<OsString>,
+    },
 }
 
 fn main() -> ExitCode {
@@ -40,6 +47,7 @@ fn main() -> ExitCode {
         Command::Robots { check: false } => robots::rebuild(&root),
         Command::Robots { check: true } => robots::check(&root),
         Command::Corpus { arguments } => corpus::run(&root, &arguments),
+        Command::Fuzz { arguments } => fuzz::run(&root, &arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

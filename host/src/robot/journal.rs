@@ -116,7 +116,7 @@ enum StoredNote {
 }
 
 /// What an entry without text counts, in bytes.
-const ENTRY_BYTES: u64 = 16;
+pub(super) const ENTRY_BYTES: u64 = 16;
 
 impl Journal {
     /// Forgets all entries, keeps the memory, and sets the limit in bytes: 16

@@ -47,18 +47,11 @@ pub fn main_with(before_match: &'static (dyn Fn(u64) + Sync)) -> io::Result<()> 
             build: wire::build(),
             sandbox,
         };
-        let mut table = Table {
-            host,
-            rules,
-            robots: Vec::new(),
-            mazes: Vec::new(),
-            recorder: Recorder::default(),
-            before_match,
-        };
+        let mut table = Table::new(host, rules, before_match);
         wire::write(&mut pipes.to, &hello)?;
         pipes.to.flush()?;
         while let Some(request) = wire::read::<Request>(&mut pipes.from)? {
-            table.answer(request, &mut pipes)?;
+            table.answer(request, &mut pipes.from, &mut pipes.to)?;
         }
         Ok(())
     })
@@ -86,11 +79,11 @@ where
 }
 
 /// What the worker keeps between requests.
-struct Table {
+pub(super) struct Table {
     host: Host,
     rules: Ruleset,
     /// By slot.
-    robots: Vec<Option<Robot>>,
+    pub(super) robots: Vec<Option<Robot>>,
     /// By slot.
     mazes: Vec<Option<Maze>>,
     recorder: Recorder,
@@ -98,7 +91,28 @@ struct Table {
 }
 
 impl Table {
-    fn answer(&mut self, request: Request, pipes: &mut Pipes) -> io::Result<()> {
+    pub(super) fn new(
+        host: Host,
+        rules: Ruleset,
+        before_match: &'static (dyn Fn(u64) + Sync),
+    ) -> Self {
+        Self {
+            host,
+            rules,
+            robots: Vec::new(),
+            mazes: Vec::new(),
+            recorder: Recorder::default(),
+            before_match,
+        }
+    }
+
+    /// Does what a request asks; what follows the request comes from `from`.
+    pub(super) fn answer(
+        &mut self,
+        request: Request,
+        from: &mut impl Read,
+        to: &mut BufWriter<impl Write>,
+    ) -> io::Result<()> {
         match request {
             Request::Robot {
                 slot,
@@ -106,10 +120,10 @@ impl Table {
                 code,
                 component,
             } => {
-                let bytes = read_exactly(&mut pipes.from, length)?;
+                let bytes = read_exactly(from, length)?;
                 let loaded = self.load(slot, &bytes, (code, component));
-                wire::write(&mut pipes.to, &loaded)?;
-                pipes.to.flush()
+                wire::write(to, &loaded)?;
+                to.flush()
             }
             Request::Maze { slot, bytes } => {
                 let maze = Maze::from_identity_bytes(&bytes);
@@ -117,7 +131,7 @@ impl Table {
                 put(&mut self.mazes, slot, maze);
                 Ok(())
             }
-            Request::Play(batch) => self.play(&batch, &mut pipes.to),
+            Request::Play(batch) => self.play(&batch, to),
         }
     }
 
@@ -169,7 +183,11 @@ impl Table {
     }
 }
 
-fn answers(played: Result<Outcome, HostError>, recorder: &Recorder, full: Option<Full>) -> Answers {
+pub(super) fn answers(
+    played: Result<Outcome, HostError>,
+    recorder: &Recorder,
+    full: Option<Full>,
+) -> Answers {
     let (stop, fuel) = match played {
         Ok(outcome) => {
             let stop = match outcome.verdict {
@@ -202,7 +220,7 @@ fn answers(played: Result<Outcome, HostError>, recorder: &Recorder, full: Option
     }
 }
 
-fn full(recorder: &Recorder) -> Full {
+pub(super) fn full(recorder: &Recorder) -> Full {
     let journal = recorder.journal.entries();
     Full {
         step_fuel: recorder.step_fuel.clone(),

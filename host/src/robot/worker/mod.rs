@@ -11,6 +11,8 @@
 //! from the rules and not from the worker.
 
 pub mod confine;
+#[doc(hidden)]
+pub mod fuzz;
 
 mod begin;
 mod compile;

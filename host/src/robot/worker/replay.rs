@@ -1,6 +1,7 @@
 //! From a robot's answers to an outcome, by the rules: [`replay`].
 
 use super::wire::{Answers, Full, Note, Stop};
+use crate::robot::journal::ENTRY_BYTES;
 use crate::robot::{
     self, Fault, FuelUse, Game, HostError, Outcome, Phase, Record, Recorder, Verdict,
 };
@@ -27,6 +28,7 @@ pub(super) fn replay(
 ) -> Result<Result<Record, HostError>, Nonsense> {
     let limits = &game.rules.limits;
     check_fuel(answers.fuel, limits)?;
+    check_journal(answers.journal, limits)?;
     recorder.step_fuel.clear();
     recorder.journal.clear(limits.journal_bytes_max);
     let mut simulation = Simulation::new(game.maze, game.rules, &mut recorder.trace);
@@ -82,7 +84,8 @@ pub(super) fn replay(
         fuel: answers.fuel,
     };
     if let Some(full) = answers.full {
-        keep(full, game, recorder)?;
+        let told = (full, answers.journal);
+        keep(told, (&outcome, game), recorder)?;
     }
     Ok(Ok(Record {
         outcome,
@@ -103,9 +106,25 @@ fn check_fuel(fuel: FuelUse, limits: &Limits) -> Result<(), Nonsense> {
     }
 }
 
-/// Puts journal and fuel into the recorder.
-fn keep(full: Full, game: &Game<'_>, recorder: &mut Recorder) -> Result<(), Nonsense> {
+/// What the journal has room for, and that every call that did not fit cost fuel.
+fn check_journal((entries, dropped): (u64, u64), limits: &Limits) -> Result<(), Nonsense> {
+    let fuel = limits.start_fuel_max.saturating_add(limits.match_fuel_max);
+    if entries <= limits.journal_bytes_max / ENTRY_BYTES && dropped <= fuel {
+        Ok(())
+    } else {
+        Err(Nonsense("it told of more entries than a journal has"))
+    }
+}
+
+/// Puts journal and fuel into the recorder, when they are those of the match.
+fn keep(
+    (full, (entries, _)): (Full, (u64, u64)),
+    (outcome, game): (&Outcome, &Game<'_>),
+    recorder: &mut Recorder,
+) -> Result<(), Nonsense> {
+    check_step_fuel(&full.step_fuel, outcome.fuel)?;
     let walls = game.maze.walls();
+    let steps: u32 = outcome.steps.iter().sum();
     for (step, note) in &full.journal {
         let note = note.borrowed();
         let inside = match note {
@@ -117,10 +136,29 @@ fn keep(full: Full, game: &Game<'_>, recorder: &mut Recorder) -> Result<(), Nons
         if !inside {
             return Err(Nonsense("it told of a cell outside the maze"));
         }
+        // One more when the robot said something and then failed.
+        if *step > steps + 1 {
+            return Err(Nonsense("it told of an entry after the last step"));
+        }
         recorder.journal.push(*step, note);
+    }
+    if recorder.journal.counts() != (entries, 0) {
+        return Err(Nonsense("it told of another number of entries"));
     }
     recorder.step_fuel = full.step_fuel;
     Ok(())
+}
+
+fn check_step_fuel(by_step: &[u64], fuel: FuelUse) -> Result<(), Nonsense> {
+    let sum = by_step
+        .iter()
+        .try_fold(0_u64, |sum, used| sum.checked_add(*used));
+    let max = by_step.iter().max().copied().unwrap_or(0);
+    if (sum, max) == (Some(fuel.steps), fuel.step_max) {
+        Ok(())
+    } else {
+        Err(Nonsense("its fuel by step is not the fuel of the match"))
+    }
 }
 
 impl Note {
@@ -152,5 +190,81 @@ impl From<robot::Note<'_>> for Note {
             robot::Note::Label { cell, text } => Self::Label(cell, text.to_owned()),
             robot::Note::Wall { cell, side, belief } => Self::Wall(cell, side, belief),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fuzz::{maze, short_rules};
+    use super::*;
+    use crate::robot::FaultKind;
+
+    /// A robot that failed in its first step, told in full.
+    fn failed() -> Answers {
+        Answers {
+            actions: Vec::new(),
+            stop: Some(Stop::Fault {
+                kind: FaultKind::Unreachable,
+                phase: Phase::NextMove,
+                detail: "executed `unreachable`".into(),
+            }),
+            fuel: FuelUse {
+                start: 1,
+                steps: 7,
+                step_max: 7,
+            },
+            journal: (0, 3),
+            full: Some(Full {
+                step_fuel: vec![7],
+                journal: Vec::new(),
+            }),
+        }
+    }
+
+    #[track_caller]
+    fn check(change: impl FnOnce(&mut Answers), expected: Option<&str>) {
+        let (maze, rules) = (maze(), short_rules());
+        let game = Game {
+            maze: &maze,
+            rules: &rules,
+            seed: 0,
+            setting: 0,
+        };
+        let mut answers = failed();
+        change(&mut answers);
+        let replayed = replay(answers, &game, &mut Recorder::default());
+        assert_eq!(replayed.err().map(|nonsense| nonsense.0), expected);
+    }
+
+    fn full(answers: &mut Answers) -> &mut Full {
+        answers.full.as_mut().expect("it is told in full")
+    }
+
+    #[test]
+    fn what_a_robot_did_is_believed() {
+        check(|_| (), None);
+    }
+
+    /// Each of these was believed until a fuzzer sent it, or would have been.
+    #[test]
+    fn what_cannot_be_is_not_believed() {
+        let fuel = Some("its fuel by step is not the fuel of the match");
+        check(|it| full(it).step_fuel = vec![6], fuel);
+        check(|it| full(it).step_fuel = vec![3, 4], fuel);
+        check(|it| full(it).step_fuel = vec![u64::MAX, 8], fuel);
+        let room = Some("it told of more entries than a journal has");
+        check(|it| it.journal = (u64::MAX, 0), room);
+        check(|it| it.journal = (0, u64::MAX), room);
+        let count = Some("it told of another number of entries");
+        check(|it| it.journal = (1, 0), count);
+        let log = |step| (step, Note::Log(robot::Level::Info, "text".into()));
+        check(|it| full(it).journal.push(log(1)), count);
+        check(
+            |it| {
+                it.journal.0 = 1;
+                full(it).journal.push(log(2));
+            },
+            Some("it told of an entry after the last step"),
+        );
     }
 }

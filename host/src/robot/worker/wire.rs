@@ -20,7 +20,8 @@ use crate::robot::{
 use crate::sim::{Action, Limits, Ruleset};
 
 /// The largest frame, in bytes: a match of 10,000 steps with a full journal has less.
-const FRAME_BYTES_MAX: usize = 16 << 20;
+/// What is read from a frame takes up to 16 times its bytes.
+const FRAME_BYTES_MAX: usize = 4 << 20;
 
 /// What a worker has to be: the same version and engine as the supervisor.
 pub(super) fn build() -> String {
