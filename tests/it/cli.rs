@@ -132,6 +132,7 @@ fn help_in_two_lengths() {
     for command in [
         "demo",
         "run",
+        "verify",
         "robots",
         "inspect",
         "maze",
@@ -212,6 +213,30 @@ fn contests_of_bad_input() {
             "run flood test_maze_01 --html missing/page.html",
             "run flood test_maze_01 --html nothing",
             "run flood test_maze_01 --html small.txt",
+        ],
+    );
+}
+
+#[test]
+fn verifications_of_bad_input() {
+    check(
+        "verify-bad-input",
+        &[
+            "verify",
+            "verify missing.json",
+            "verify nothing",
+            "verify small.txt letter.txt",
+            "verify ahead.wasm --json",
+            "verify - -",
+            "verify - --maze -",
+            "verify small.txt --robot missing.wasm",
+            "verify small.txt --robot nothing",
+            "verify small.txt --maze missing.txt",
+            "verify small.txt --maze broken.txt",
+            "verify small.txt --maze gen:tree:13:1",
+            "verify small.txt --jobs 0",
+            "verify small.txt --trust --require-sandbox",
+            "verify small.txt --rules udacity",
         ],
     );
 }

@@ -58,6 +58,8 @@ mod streams;
 mod study;
 /// Robots that fail, and the verdicts on them.
 mod verdicts;
+/// Recorded results played again, and contests played twice.
+mod verify;
 /// The hash of the WIT beside its history.
 mod wit;
 /// Robots in worker processes.

@@ -9,7 +9,7 @@ pub enum Exit {
     /// The command did what was asked.
     Success = 0,
     /// The command worked and its answer is no: a maze breaks the contest
-    /// rules, or has no solution.
+    /// rules, or has no solution; a result is not what its matches give.
     No = 1,
     /// The command line is wrong (also clap's own code).
     Usage = 2,
@@ -27,7 +27,7 @@ pub enum Exit {
 pub const EXIT_CODES_HELP: &str = "\
 Exit codes:
     0  success
-    1  the answer is no (an illegal or unsolvable maze)
+    1  the answer is no (an illegal or unsolvable maze, a false result)
     2  wrong command line
     3  an input cannot be read or understood
     4  a robot was refused or ended a match with a fault

@@ -190,7 +190,8 @@ impl Source {
         })
     }
 
-    fn short_name(&self) -> String {
+    /// What results call it, if nothing else is called so.
+    pub fn short_name(&self) -> String {
         match self {
             Self::File(path) => path
                 .file_stem()

@@ -13,6 +13,7 @@ macro_rules! tell {
     };
 }
 
+mod at_hand;
 mod build;
 mod completions;
 mod demo;
@@ -35,6 +36,8 @@ mod setup;
 mod study;
 mod terminal;
 mod toolchain;
+mod twice;
+mod verify;
 mod watch;
 mod worker;
 
@@ -57,6 +60,7 @@ struct Cli {
 enum Command {
     Demo(demo::Args),
     Run(run::Args),
+    Verify(verify::Args),
     Robots(list::Args),
     Inspect(inspect::Args),
     Study(study::Args),
@@ -81,6 +85,7 @@ pub fn main() -> ExitCode {
     let outcome: Result<Exit, Failure> = match cli.command {
         Command::Demo(args) => demo::run(&args),
         Command::Run(args) => run::run(&args),
+        Command::Verify(args) => verify::run(&args),
         Command::Robots(args) => list::run(&args),
         Command::Inspect(args) => inspect::run(&args),
         Command::Study(args) => study::run(&args),

@@ -8,6 +8,7 @@ use std::fs;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::failure::Failure;
 use crate::contest::Entrant;
@@ -40,7 +41,7 @@ impl Specification {
     /// Whether a text that may mean a robot or a maze means a robot: a bundled
     /// name or a `.wasm` file, with or without a setting.
     pub fn is_meant_by(text: &str) -> bool {
-        let names_robot = |name: &str| find(name).is_some() || has_wasm_extension(name);
+        let names_robot = |name: &str| find(name).is_some() || has_wasm_extension(Path::new(name));
         names_robot(text) || split(text).is_some_and(|(name, _)| names_robot(name))
     }
 
@@ -187,14 +188,18 @@ fn bundled_setting(robot: &BundledRobot, text: &str) -> Result<u32, Failure> {
     })
 }
 
-fn has_wasm_extension(name: &str) -> bool {
-    Path::new(name)
-        .extension()
+/// Whether a file has the ending of robots.
+pub fn has_wasm_extension(path: &Path) -> bool {
+    path.extension()
         .is_some_and(|extension| extension.eq_ignore_ascii_case("wasm"))
 }
 
 /// Reads at most one byte more than a robot may have.
-fn read_file(path: &Path, bytes_max: u64) -> Result<Vec<u8>, Failure> {
+///
+/// # Errors
+///
+/// When the file cannot be read.
+pub fn read_file(path: &Path, bytes_max: u64) -> Result<Vec<u8>, Failure> {
     let shown = visible(&path.display().to_string());
     let failed = |error: std::io::Error| {
         let failure = Failure::input(format!("failed to read robot `{shown}`: {error}"));
@@ -229,13 +234,7 @@ pub fn load(specifications: &[Specification], referee: &Referee) -> Result<Vec<E
     for specification in specifications {
         let bytes = specification.read(referee.rules().limits.component_bytes_max)?;
         let name = unique_name(specification, specifications);
-        let admission = admit(referee, &bytes, specification)?;
-        let admission = admission.map(Arc::new).map_err(Arc::new);
-        if let Ok(player) = &admission
-            && let CacheUse::Failed(reason) = player.cache_use()
-        {
-            tell!("warning: {reason}; robots are compiled anew each time");
-        }
+        let admission = admit(referee, &bytes, specification.trust())?;
         entrants.push(Entrant {
             name,
             digest: Digest::of(&bytes),
@@ -246,26 +245,37 @@ pub fn load(specifications: &[Specification], referee: &Referee) -> Result<Vec<E
     Ok(entrants)
 }
 
-/// Has the referee look at a robot.
-fn admit(
+/// Has the referee look at a robot, and tells what the user should know about that.
+///
+/// # Errors
+///
+/// When the host fails.
+pub fn admit(
     referee: &Referee,
     bytes: &[u8],
-    specification: &Specification,
-) -> Result<Result<Player, Refusal>, Failure> {
+    trust: Trust,
+) -> Result<Result<Arc<Player>, Arc<Refusal>>, Failure> {
     let had_workers = referee.sandbox().is_some();
     let admission = referee
-        .admit(bytes, specification.trust())
+        .admit(bytes, trust)
         .map_err(|error| setup_failure(&error))?;
     if !had_workers {
         tell_sandbox(referee);
     }
-    Ok(admission)
+    if let Ok(player) = &admission
+        && let CacheUse::Failed(reason) = player.cache_use()
+    {
+        tell!("warning: {reason}; robots are compiled anew each time");
+    }
+    Ok(admission.map(Arc::new).map_err(Arc::new))
 }
 
 /// Says once where workers are confined by less than everything.
 pub fn tell_sandbox(referee: &Referee) {
+    static TOLD: AtomicBool = AtomicBool::new(false);
     if let Some(sandbox) = referee.sandbox()
         && !sandbox.is_complete()
+        && !TOLD.swap(true, Ordering::Relaxed)
     {
         let lacks = match (sandbox.landlock, sandbox.seccomp) {
             (false, false) => "landlock and seccomp",

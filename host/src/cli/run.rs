@@ -12,8 +12,8 @@ use super::mazes::{self, Legality};
 use super::output::{self, Existing};
 use super::robots::{self, Specification};
 use super::setup::{IsolationArgs, SetupArgs};
-use super::{explain, interrupt, journal, page, terminal, watch};
-use crate::contest::{Contest, ContestMaze, Entrant, MatchResult, Played, standings};
+use super::{explain, interrupt, journal, page, terminal, twice, watch};
+use crate::contest::{Contest, ContestMaze, Entrant, MatchResult, Pairing, Played, standings};
 use crate::maze::bundled as bundled_mazes;
 use crate::report::result::ContestReport;
 use crate::report::table;
@@ -34,6 +34,7 @@ Exit codes:
   0  every robot was admitted and every match ended without a fault; a robot
      that did not finish within its steps is no fault
   4  a robot was refused or ended a match with a fault; all others were played
+  5  the host failed, or --twice found a difference
   130  interrupted; what was played by then has been printed";
 
 /// Run robots in mazes and print verdicts, scores and standings.
@@ -62,6 +63,10 @@ pub struct Args {
     #[arg(long, value_name = "COUNT", default_value_t = 1,
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     repeat: u32,
+    /// Play everything twice, in another way the second time, and fail when any
+    /// byte is not the same
+    #[arg(long)]
+    twice: bool,
     /// Use mazes that break contest rules as they are
     #[arg(long)]
     lenient: bool,
@@ -111,7 +116,13 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         seeds: args.seeds()?,
         rules: args.setup.rules,
     };
-    let played = play(&contest, &referee, args.setup.threads())?;
+    let threads = args.setup.threads();
+    let played = play(&contest, &referee, threads)?;
+    let twice = if args.twice {
+        twice::check(&contest, &played, &specifications, threads, &args.isolation)?
+    } else {
+        Exit::Success
+    };
     if args.watch && !played.results.is_empty() {
         let delay = Duration::from_millis(args.delay);
         watch::watch(&contest, &referee, &played.results, delay, args.ascii)?;
@@ -123,19 +134,33 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     if !args.json {
         explain::tell(&contest, &referee, &specifications, &played.results)?;
     }
-    Ok(exit(&contest, &played))
+    let exit = exit(&contest, &played);
+    Ok(match twice {
+        Exit::Success => exit,
+        interrupted => interrupted,
+    })
 }
 
 /// Plays a contest with a progress bar on a terminal; Ctrl-C ends it early.
 pub fn play(contest: &Contest, referee: &Referee, threads: usize) -> Result<Played, Failure> {
+    play_only(contest, &contest.pairings(), referee, threads)
+}
+
+/// Plays these matches of a contest as [`play`] plays all.
+pub fn play_only(
+    contest: &Contest,
+    pairings: &[Pairing],
+    referee: &Referee,
+    threads: usize,
+) -> Result<Played, Failure> {
     let cancelled: &AtomicBool = interrupt::listen()?;
-    let total = u64::try_from(contest.matches()).unwrap_or(u64::MAX);
+    let total = u64::try_from(pairings.len()).unwrap_or(u64::MAX);
     let bar = ProgressBar::new(total).with_style(
         ProgressStyle::with_template("{bar:40} {pos}/{len} matches, {per_sec}, {eta} left")
             .expect("a constant template"),
     );
     let played = contest
-        .run(referee, threads, cancelled, &|| bar.inc(1))
+        .run_only(pairings, referee, threads, cancelled, &|| bar.inc(1))
         .map_err(Failure::host);
     bar.finish_and_clear();
     played

@@ -17,6 +17,13 @@ pub struct SetupArgs {
     /// `udacity-each-run` (1000 steps for each run)
     #[arg(long, value_name = "NAME", default_value = "udacity", value_parser = rules)]
     pub rules: Ruleset,
+    #[command(flatten)]
+    pub engine: EngineArgs,
+}
+
+/// What robots are run with, whatever the rules.
+#[derive(clap::Args, Debug)]
+pub struct EngineArgs {
     /// Threads that play matches; by default one for each core
     #[arg(long, short, value_name = "N")]
     jobs: Option<NonZeroUsize>,
@@ -51,15 +58,20 @@ fn rules(name: &str) -> Result<Ruleset, String> {
 impl SetupArgs {
     /// Threads to play matches on, at least 1.
     pub fn threads(&self) -> usize {
-        let cores = || thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
-        self.jobs.unwrap_or_else(cores).get()
+        self.engine.threads()
     }
 
     /// A referee for bundled robots, which run in this process, with a cache, or
     /// without one when that cannot be used: robots are then compiled each time, which
     /// is slower and otherwise the same.
     pub fn referee(&self) -> Referee {
-        self.referee_with(Isolation::None)
+        let engine = &self.engine;
+        referee(
+            self.rules,
+            engine.threads(),
+            engine.open_cache(),
+            Isolation::None,
+        )
     }
 
     /// A referee for robots of all kinds.
@@ -68,12 +80,25 @@ impl SetupArgs {
     ///
     /// When the program cannot find itself, to start workers from.
     pub fn referee_for_all(&self, isolation: &IsolationArgs) -> Result<Referee, Failure> {
-        Ok(self.referee_with(isolation.isolation()?))
+        self.engine.referee(self.rules, isolation)
+    }
+}
+
+impl EngineArgs {
+    /// Threads to play matches on, at least 1.
+    pub fn threads(&self) -> usize {
+        let cores = || thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+        self.jobs.unwrap_or_else(cores).get()
     }
 
-    fn referee_with(&self, isolation: Isolation) -> Referee {
-        let matches = u32::try_from(self.threads()).unwrap_or(u32::MAX);
-        Referee::new(self.rules, matches, self.open_cache(), isolation)
+    /// A referee for robots of all kinds by these rules.
+    ///
+    /// # Errors
+    ///
+    /// When the program cannot find itself, to start workers from.
+    pub fn referee(&self, rules: Ruleset, isolation: &IsolationArgs) -> Result<Referee, Failure> {
+        let isolation = isolation.isolation()?;
+        Ok(referee(rules, self.threads(), self.open_cache(), isolation))
     }
 
     fn open_cache(&self) -> Option<Cache> {
@@ -96,6 +121,25 @@ impl SetupArgs {
             }
         }
     }
+}
+
+fn referee(rules: Ruleset, threads: usize, cache: Option<Cache>, isolation: Isolation) -> Referee {
+    let matches = u32::try_from(threads).unwrap_or(u32::MAX);
+    Referee::new(rules, matches, cache, isolation)
+}
+
+/// A referee on that many threads that has nothing in common with any other: it
+/// compiles all robots anew.
+///
+/// # Errors
+///
+/// When the program cannot find itself, to start workers from.
+pub fn independent_referee(
+    rules: Ruleset,
+    threads: usize,
+    isolation: &IsolationArgs,
+) -> Result<Referee, Failure> {
+    Ok(referee(rules, threads, None, isolation.isolation()?))
 }
 
 impl IsolationArgs {

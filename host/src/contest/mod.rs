@@ -15,7 +15,8 @@ mod tally;
 pub use benchmark::Benchmark;
 pub use mean::Mean;
 pub use run::{
-    Contest, ContestError, ContestMaze, Entrant, FailedMatch, MatchResult, Played, Progress,
+    Contest, ContestError, ContestMaze, Entrant, FailedMatch, MatchResult, Pairing, Played,
+    Progress,
 };
 pub use standings::{Standing, standings};
 pub use study::{

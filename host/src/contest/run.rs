@@ -81,6 +81,17 @@ pub struct Contest {
     pub rules: Ruleset,
 }
 
+/// A match that is to be played.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pairing {
+    /// Index into [`Contest::entrants`].
+    pub entrant: usize,
+    /// Index into [`Contest::mazes`].
+    pub maze: usize,
+    /// The seed, which need not be one of [`Contest::seeds`].
+    pub seed: u64,
+}
+
 /// What came of one match.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MatchResult {
@@ -147,6 +158,24 @@ impl Contest {
         admitted.count() * self.mazes.len() * self.seeds.len()
     }
 
+    /// All matches, in the contest's order.
+    pub fn pairings(&self) -> Vec<Pairing> {
+        let mut pairings = Vec::with_capacity(self.matches());
+        for (entrant, Entrant { admission, .. }) in self.entrants.iter().enumerate() {
+            if admission.is_err() {
+                continue;
+            }
+            for maze in 0..self.mazes.len() {
+                pairings.extend(self.seeds.iter().map(|&seed| Pairing {
+                    entrant,
+                    maze,
+                    seed,
+                }));
+            }
+        }
+        pairings
+    }
+
     /// Plays all matches on `threads` threads (at least 1). When `cancelled`
     /// becomes true, matches that have not begun are left out.
     ///
@@ -155,6 +184,23 @@ impl Contest {
     /// When the threads cannot be started.
     pub fn run(
         &self,
+        referee: &Referee,
+        threads: usize,
+        cancelled: &AtomicBool,
+        progress: &Progress<'_>,
+    ) -> Result<Played, ContestError> {
+        self.run_only(&self.pairings(), referee, threads, cancelled, progress)
+    }
+
+    /// Plays these matches as [`Contest::run`] plays all, and returns what came of
+    /// them in their order. Those of refused entrants are left out.
+    ///
+    /// # Errors
+    ///
+    /// When the threads cannot be started.
+    pub fn run_only(
+        &self,
+        pairings: &[Pairing],
         referee: &Referee,
         threads: usize,
         cancelled: &AtomicBool,
@@ -170,7 +216,7 @@ impl Contest {
                 threads,
                 reason: error.to_string(),
             })?;
-        let rows = self.rows(threads);
+        let rows = self.rows(pairings, threads);
         let played: Vec<Vec<Result<MatchResult, FailedMatch>>> = pool.install(|| {
             rows.into_par_iter()
                 .map_init(Recorder::default, |recorder, row| {
@@ -217,33 +263,28 @@ impl Contest {
 
     /// The match of a result.
     pub fn game_of(&self, result: &MatchResult) -> Game<'_> {
-        self.game(result.entrant, (result.maze, result.seed))
+        self.game(&result.pairing())
     }
 
-    fn game(&self, entrant: usize, (maze, seed): (usize, u64)) -> Game<'_> {
+    fn game(&self, pairing: &Pairing) -> Game<'_> {
         Game {
-            maze: &self.mazes[maze].maze,
+            maze: &self.mazes[pairing.maze].maze,
             rules: &self.rules,
-            seed,
-            setting: self.entrants[entrant].setting,
+            seed: pairing.seed,
+            setting: self.entrants[pairing.entrant].setting,
         }
     }
 
-    /// All matches in order, cut into rows of one entrant each.
-    fn rows(&self, threads: usize) -> Vec<Row<'_>> {
-        let length = self.matches() / (threads * ROWS_PER_THREAD);
+    /// Matches in their order, cut into rows of one entrant each.
+    fn rows<'a>(&'a self, pairings: &'a [Pairing], threads: usize) -> Vec<Row<'a>> {
+        let length = pairings.len() / (threads * ROWS_PER_THREAD);
         let length = length.clamp(1, ROW_MAX);
         let mut rows = Vec::new();
-        for (entrant, Entrant { admission, .. }) in self.entrants.iter().enumerate() {
-            let Ok(player) = admission else { continue };
-            let mazes = 0..self.mazes.len();
-            let places = mazes.flat_map(|maze| self.seeds.iter().map(move |&seed| (maze, seed)));
-            let places: Vec<Place> = places.collect();
-            rows.extend(places.chunks(length).map(|places| Row {
-                player,
-                entrant,
-                places: places.to_vec(),
-            }));
+        for own in pairings.chunk_by(|a, b| a.entrant == b.entrant) {
+            let Ok(player) = &self.entrants[own[0].entrant].admission else {
+                continue;
+            };
+            rows.extend(own.chunks(length).map(|pairings| Row { player, pairings }));
         }
         rows
     }
@@ -255,19 +296,17 @@ impl Contest {
         recorder: &mut Recorder,
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Vec<Result<MatchResult, FailedMatch>> {
-        let entrant = row.entrant;
-        let places = row.places.iter();
-        let games: Vec<Game<'_>> = places.map(|&place| self.game(entrant, place)).collect();
-        let mut places = row.places.iter();
+        let games: Vec<Game<'_>> = row.pairings.iter().map(|it| self.game(it)).collect();
+        let mut pairings = row.pairings.iter();
         let mut played = Vec::with_capacity(games.len());
         let _ = referee.play(row.player, &games, recorder, &mut |record| {
-            let &(maze, seed) = places.next().expect("a record for each game");
+            let pairing = pairings.next().expect("a record for each game");
             played.push(match record {
-                Ok(record) => Ok(MatchResult::new(entrant, (maze, seed), record)),
+                Ok(record) => Ok(MatchResult::new(pairing, record)),
                 Err(error) => Err(FailedMatch {
-                    entrant,
-                    maze,
-                    seed,
+                    entrant: pairing.entrant,
+                    maze: pairing.maze,
+                    seed: pairing.seed,
                     error,
                 }),
             });
@@ -282,11 +321,20 @@ impl Contest {
 }
 
 impl MatchResult {
-    fn new(entrant: usize, (maze, seed): Place, record: Record) -> Self {
+    /// Which match it is.
+    pub const fn pairing(&self) -> Pairing {
+        Pairing {
+            entrant: self.entrant,
+            maze: self.maze,
+            seed: self.seed,
+        }
+    }
+
+    fn new(pairing: &Pairing, record: Record) -> Self {
         Self {
-            entrant,
-            maze,
-            seed,
+            entrant: pairing.entrant,
+            maze: pairing.maze,
+            seed: pairing.seed,
             outcome: record.outcome,
             trace: record.trace,
             journal: record.journal,
@@ -294,12 +342,19 @@ impl MatchResult {
     }
 }
 
-/// A maze, by its index, and a seed.
-type Place = (usize, u64);
+impl FailedMatch {
+    /// Which match it is.
+    pub const fn pairing(&self) -> Pairing {
+        Pairing {
+            entrant: self.entrant,
+            maze: self.maze,
+            seed: self.seed,
+        }
+    }
+}
 
 /// Matches of one entrant to be played one after the other.
 struct Row<'a> {
     player: &'a Player,
-    entrant: usize,
-    places: Vec<Place>,
+    pairings: &'a [Pairing],
 }

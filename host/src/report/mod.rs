@@ -14,6 +14,7 @@ pub mod reference;
 pub mod replay;
 pub mod result;
 pub mod table;
+pub mod verification;
 
 mod json;
 mod markdown;

@@ -7,6 +7,7 @@
 //!   "wasmouse": "0.1.0",
 //!   "engine": "wasmtime-48.0.8+wasmouse.2",
 //!   "ruleset": {"name": "udacity", "version": 1, "sha256": "..."},
+//!   "seeds": [0],
 //!   "complete": true,
 //!   "robots": [{"name": "flood", "sha256": "...", "setting": 0}],
 //!   "mazes": [{"name": "test_maze_01", "sha256": "...", "dimension": 12, "floor": 17.6}],
@@ -23,7 +24,8 @@
 //!   "standings": [{
 //!     "rank": 1, "robot": "flood", "matches": 1, "finished": 1, "goal_reached": 0,
 //!     "faults": 0, "mean_score": 22.1, "mean_regret": 4.5
-//!   }]
+//!   }],
+//!   "sha256": "..."
 //! }
 //! ```
 //!
@@ -32,9 +34,29 @@
 //!
 //! Steps are counted in steps, fuel in wasmtime's units, scores in steps with
 //! three decimals. The same contest on the same engine gives the same bytes,
-//! whatever the number of threads.
+//! whatever the number of threads. `sha256` at the end is the digest of the text
+//! with nothing between its quotes: it shows damage, and names a whole contest in
+//! one line. Who writes a false document can write a fitting digest: only playing
+//! the matches again shows that.
+//!
+//! [`ContestReport::read`] reads such a document strictly, and [`Verification`]
+//! holds it against matches that were played again.
 
-use serde::Serialize;
+mod difference;
+mod finder;
+mod place;
+mod read;
+#[cfg(test)]
+mod tests;
+mod verification;
+
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
+
+pub use difference::{Difference, Differences, MatchName};
+pub use read::{ReadError, RecordedMaze, RecordedRobot};
+pub use verification::{Schedule, Unplayed, Verification};
 
 use super::json;
 use crate::contest::{
@@ -47,20 +69,33 @@ use crate::sim::{Ruleset, Score};
 const SCHEMA: u32 = 1;
 
 /// The whole document.
-#[derive(Serialize)]
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "the JSON of a contest")]
 pub struct ContestReport<'a> {
     schema: u32,
-    wasmouse: &'static str,
-    engine: String,
-    ruleset: WireRuleset,
+    #[serde(borrow)]
+    wasmouse: Cow<'a, str>,
+    #[serde(borrow)]
+    engine: Cow<'a, str>,
+    #[serde(borrow)]
+    ruleset: WireRuleset<'a>,
+    seeds: Vec<u64>,
     /// False when the contest was interrupted or the host failed in a match:
     /// `matches` then holds what has been played.
     complete: bool,
+    #[serde(borrow)]
     robots: Vec<WireRobot<'a>>,
+    #[serde(borrow)]
     mazes: Vec<WireMaze<'a>>,
+    #[serde(borrow)]
     matches: Vec<WireMatch<'a>>,
+    #[serde(borrow)]
     failed: Vec<WireFailed<'a>>,
+    #[serde(borrow)]
     standings: Vec<WireStanding<'a>>,
+    /// Empty until the document is written.
+    #[serde(borrow)]
+    sha256: Cow<'a, str>,
 }
 
 impl<'a> ContestReport<'a> {
@@ -69,9 +104,10 @@ impl<'a> ContestReport<'a> {
         let results = &played.results;
         Self {
             schema: SCHEMA,
-            wasmouse: env!("CARGO_PKG_VERSION"),
-            engine: engine_id(),
+            wasmouse: env!("CARGO_PKG_VERSION").into(),
+            engine: engine_id().into(),
             ruleset: WireRuleset::new(&contest.rules),
+            seeds: contest.seeds.clone(),
             complete: results.len() == contest.matches(),
             robots: contest.entrants.iter().map(WireRobot::new).collect(),
             mazes: contest.mazes.iter().map(WireMaze::new).collect(),
@@ -88,68 +124,89 @@ impl<'a> ContestReport<'a> {
                 .iter()
                 .map(|line| WireStanding::new(contest, line))
                 .collect(),
+            sha256: Cow::Borrowed(""),
         }
     }
 
-    /// The document as text, indented, with a newline at the end.
+    /// The document as text, indented, with its digest and a newline at the end.
     pub fn to_json(&self) -> String {
-        json::document(self)
+        const END: &str = "\"\n}\n";
+        let mut text = json::document(self);
+        let digest = Digest::of(text.as_bytes());
+        let place = text.len() - END.len();
+        assert!(text[place..] == *END, "the digest is the last field");
+        text.insert_str(place, &digest.hex());
+        text
     }
 }
 
-#[derive(Serialize)]
-struct WireRuleset {
-    name: &'static str,
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WireRuleset<'a> {
+    #[serde(borrow)]
+    name: Cow<'a, str>,
     version: u32,
-    sha256: String,
+    #[serde(borrow)]
+    sha256: Cow<'a, str>,
 }
 
-impl WireRuleset {
+impl WireRuleset<'_> {
     fn new(rules: &Ruleset) -> Self {
         Self {
-            name: rules.name,
+            name: rules.name.into(),
             version: rules.version,
-            sha256: Digest::of(&rules.identity_bytes()).hex(),
+            sha256: Digest::of(&rules.identity_bytes()).hex().into(),
         }
     }
 }
 
-#[derive(Serialize)]
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 struct WireRobot<'a> {
-    name: &'a str,
-    sha256: String,
+    #[serde(borrow)]
+    name: Cow<'a, str>,
+    #[serde(borrow)]
+    sha256: Cow<'a, str>,
     setting: u32,
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(borrow)]
     refusal: Option<WireRefusal<'a>>,
 }
 
-#[derive(Serialize)]
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 struct WireRefusal<'a> {
-    kind: &'a str,
-    reason: String,
-    hint: &'a str,
+    #[serde(borrow)]
+    kind: Cow<'a, str>,
+    #[serde(borrow)]
+    reason: Cow<'a, str>,
+    #[serde(borrow)]
+    hint: Cow<'a, str>,
 }
 
 impl<'a> WireRobot<'a> {
     fn new(entrant: &'a Entrant) -> Self {
         let refusal = entrant.admission.as_ref().err();
         Self {
-            name: &entrant.name,
-            sha256: entrant.digest.hex(),
+            name: Cow::Borrowed(&entrant.name),
+            sha256: entrant.digest.hex().into(),
             setting: entrant.setting,
             refusal: refusal.map(|refusal| WireRefusal {
-                kind: refusal.name(),
-                reason: refusal.to_string(),
-                hint: refusal.hint(),
+                kind: refusal.name().into(),
+                reason: refusal.to_string().into(),
+                hint: refusal.hint().into(),
             }),
         }
     }
 }
 
-#[derive(Serialize)]
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 struct WireMaze<'a> {
-    name: &'a str,
-    sha256: String,
+    #[serde(borrow)]
+    name: Cow<'a, str>,
+    #[serde(borrow)]
+    sha256: Cow<'a, str>,
     dimension: u8,
     floor: Option<f64>,
 }
@@ -157,23 +214,28 @@ struct WireMaze<'a> {
 impl<'a> WireMaze<'a> {
     fn new(maze: &'a ContestMaze) -> Self {
         Self {
-            name: &maze.name,
-            sha256: maze.digest.hex(),
+            name: Cow::Borrowed(&maze.name),
+            sha256: maze.digest.hex().into(),
             dimension: maze.maze.dimension(),
             floor: maze.floor.map(score_number),
         }
     }
 }
 
-#[derive(Serialize)]
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 struct WireMatch<'a> {
-    robot: &'a str,
-    maze: &'a str,
+    #[serde(borrow)]
+    robot: Cow<'a, str>,
+    #[serde(borrow)]
+    maze: Cow<'a, str>,
     seed: u64,
-    verdict: &'static str,
+    #[serde(borrow)]
+    verdict: Cow<'a, str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     score: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(borrow)]
     fault: Option<WireFault<'a>>,
     exploration_steps: u32,
     speed_steps: u32,
@@ -186,30 +248,35 @@ struct WireMatch<'a> {
     step_fuel_max: u64,
     journal_entries: u64,
     journal_dropped: u64,
-    trace_sha256: String,
+    #[serde(borrow)]
+    trace_sha256: Cow<'a, str>,
 }
 
-#[derive(Serialize)]
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 struct WireFault<'a> {
-    kind: &'static str,
-    phase: &'static str,
+    #[serde(borrow)]
+    kind: Cow<'a, str>,
+    #[serde(borrow)]
+    phase: Cow<'a, str>,
     run: u8,
     step: u32,
     x: u8,
     y: u8,
-    detail: &'a str,
+    #[serde(borrow)]
+    detail: Cow<'a, str>,
 }
 
 impl<'a> WireFault<'a> {
     fn new(fault: &'a Fault) -> Self {
         Self {
-            kind: fault.kind.name(),
-            phase: fault.phase.name(),
+            kind: fault.kind.name().into(),
+            phase: fault.phase.name().into(),
             run: fault.run.number(),
             step: fault.step,
             x: fault.cell.x,
             y: fault.cell.y,
-            detail: &fault.detail,
+            detail: Cow::Borrowed(&fault.detail),
         }
     }
 }
@@ -225,10 +292,10 @@ impl<'a> WireMatch<'a> {
         let [exploration_steps, speed_steps] = outcome.steps;
         let (journal_entries, journal_dropped) = result.journal;
         Self {
-            robot: &contest.entrants[result.entrant].name,
-            maze: &contest.mazes[result.maze].name,
+            robot: Cow::Borrowed(&contest.entrants[result.entrant].name),
+            maze: Cow::Borrowed(&contest.mazes[result.maze].name),
             seed: result.seed,
-            verdict: outcome.verdict.name(),
+            verdict: outcome.verdict.name().into(),
             score,
             fault,
             exploration_steps,
@@ -242,34 +309,40 @@ impl<'a> WireMatch<'a> {
             step_fuel_max: outcome.fuel.step_max,
             journal_entries,
             journal_dropped,
-            trace_sha256: result.trace.hex(),
+            trace_sha256: result.trace.hex().into(),
         }
     }
 }
 
-#[derive(Serialize)]
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 struct WireFailed<'a> {
-    robot: &'a str,
-    maze: &'a str,
+    #[serde(borrow)]
+    robot: Cow<'a, str>,
+    #[serde(borrow)]
+    maze: Cow<'a, str>,
     seed: u64,
-    reason: String,
+    #[serde(borrow)]
+    reason: Cow<'a, str>,
 }
 
 impl<'a> WireFailed<'a> {
     fn new(contest: &'a Contest, failed: &FailedMatch) -> Self {
         Self {
-            robot: &contest.entrants[failed.entrant].name,
-            maze: &contest.mazes[failed.maze].name,
+            robot: Cow::Borrowed(&contest.entrants[failed.entrant].name),
+            maze: Cow::Borrowed(&contest.mazes[failed.maze].name),
             seed: failed.seed,
-            reason: failed.error.to_string(),
+            reason: failed.error.to_string().into(),
         }
     }
 }
 
-#[derive(Serialize)]
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 struct WireStanding<'a> {
     rank: Option<u32>,
-    robot: &'a str,
+    #[serde(borrow)]
+    robot: Cow<'a, str>,
     matches: u32,
     finished: u32,
     goal_reached: u32,
@@ -282,7 +355,7 @@ impl<'a> WireStanding<'a> {
     fn new(contest: &'a Contest, line: &Standing) -> Self {
         Self {
             rank: line.rank,
-            robot: &contest.entrants[line.entrant].name,
+            robot: Cow::Borrowed(&contest.entrants[line.entrant].name),
             matches: line.matches,
             finished: line.finished,
             goal_reached: line.goal_reached,
