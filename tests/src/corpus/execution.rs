@@ -232,10 +232,10 @@ fn burn(fuel: u64) -> String {
 
 fn fuel_to_the_last_unit() -> Vec<Case> {
     // Entering the function takes 1, asking whether it is the first step 3, noting
-    // that 2, and the answer 1. A component reaches the host through a shim that
-    // takes 11.
+    // that 2, and the answer 1. A call costs 3 besides its arguments, and a component
+    // reaches the host through a shim that takes 11.
     const AROUND: u64 = 7;
-    const LOG: u64 = 4 + 11 + 200;
+    const LOG: u64 = 6 + 11 + 200;
     let log = "(call $log (i32.const 0) (i32.const 0) (i32.const 0))";
     let ends = |used: u64| json!({"verdict": "budget-used-up", "exploration_steps": 1000, "step_fuel_max": used});
     let case = |numbers, name: &str, expected, fuel: u64, then: String| {

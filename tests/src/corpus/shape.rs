@@ -303,11 +303,11 @@ fn imports() -> Vec<Case> {
             "t",
             r#"(import "t" (type (sub resource)))"#,
         ),
-        unknown(
+        Case::new(
             &[60],
             "import-by-address",
-            "url=<https://robots.example/a.wasm>",
-            r#"(import "url=<https://robots.example/a.wasm>" (func))"#,
+            refused("invalid", "...is not a valid extern name..."),
+            || importing(r#"(import "url=<https://robots.example/a.wasm>" (func))"#),
         ),
         Case::new(
             &[60],
