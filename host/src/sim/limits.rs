@@ -57,9 +57,9 @@ pub struct Limits {
 ///
 /// Compiling cannot be interrupted and takes time and memory that grow with the
 /// square or the cube of some sizes, so files of a few KB can take minutes and
-/// gigabytes. Each limit is well above what robots in Rust, C, AssemblyScript,
-/// JavaScript (QuickJS, StarlingMonkey) and Python have been seen to need; the table
-/// is in the documentation of `robot::precheck`. Times are of one 2026 x86-64 core.
+/// gigabytes. Each limit is well above what robots in Rust, JavaScript (QuickJS,
+/// StarlingMonkey) and Python have been seen to need; the table is in the
+/// documentation of `robot::precheck`. Times are of one 2026 x86-64 core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct AdmissionLimits {
     /// Components inside each other. Stops deep nesting, for which each compiler

@@ -68,7 +68,8 @@ use function::Functions;
 use measure::Gauge;
 use module::Module;
 
-/// The proposals that a robot may use: those of the engine, which a test compares.
+/// The proposals that a robot may use: those that `engine::compiler_config` leaves on.
+/// What this lets through by mistake, the engine refuses when it compiles.
 const FEATURES: WasmFeatures = WasmFeatures::WASM2
     .union(WasmFeatures::TAIL_CALL)
     .union(WasmFeatures::EXTENDED_CONST)
