@@ -83,12 +83,6 @@ impl Executable {
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped());
-        // Coverage and sanitizers of a test build write where these say.
-        for name in ["LLVM_PROFILE_FILE", "ASAN_OPTIONS"] {
-            if let Some(value) = std::env::var_os(name) {
-                command.env(name, value);
-            }
-        }
         #[cfg(unix)]
         {
             use std::os::unix::process::CommandExt as _;

@@ -1,27 +1,25 @@
-//! [`Supervisor`]: admits strangers' robots and has them play, without compiling,
-//! loading or running anything of theirs itself.
+//! [`Supervisor`]: admits strangers' robots (`admit.rs`) and has them play, without
+//! compiling, loading or running anything of theirs itself.
 
 use std::io::{self, Write as _};
 use std::ops::ControlFlow;
-use std::sync::Arc;
 use std::time::Duration;
 
 use wasmtime::Engine;
 
 use super::Role;
-use super::compiler::{Compiler, Findings, Wanted};
+use super::admit::RemoteRobot;
 use super::confine::COMPILE_CPU_SECONDS;
 use super::keeper::Keeper;
 use super::pool::{PlayWorker, Pool};
 use super::process::{Death, Process, Starter, Workers};
 use super::replay::replay;
-use super::wire::{Compiled, ExplainOrder, Explained, Loaded, Sandbox, ToldRefusal};
+use super::wire::{ExplainOrder, Explained, Loaded, Sandbox};
 use crate::robot::backtrace::FRAMES_MAX;
-use crate::robot::code::{Code, Destination};
 use crate::robot::referee::Each;
 use crate::robot::{
-    Cache, CacheUse, Digest, Fault, FaultKind, Frame, FuelUse, Game, HostError, Inspection, Needs,
-    Outcome, Phase, Record, Recorder, Refusal, Verdict, engine,
+    Cache, Digest, Fault, FaultKind, Frame, FuelUse, Game, HostError, Outcome, Phase, Record,
+    Recorder, Verdict, engine,
 };
 use crate::sim::{Counts, Ruleset, Run};
 
@@ -33,50 +31,25 @@ const EXPLAIN_TIME_MAX: Duration = Duration::from_secs(2 * COMPILE_CPU_SECONDS);
 
 /// How often a match is tried whose worker ends for reasons that may not be the
 /// robot's.
-const TRIES: u32 = 4;
+pub(super) const TRIES: u32 = 4;
 
 /// The trusted side: starts workers, gives them files and matches, and judges what
 /// they say. One supervisor serves any number of threads; each of them uses a worker of
 /// its own.
 pub struct Supervisor {
     // The pool before the keeper: workers end before the thread that they live with.
-    pool: Pool,
-    starter: Starter,
-    rules: Ruleset,
-    cache: Option<Cache>,
+    pub(super) pool: Pool,
+    pub(super) starter: Starter,
+    pub(super) rules: Ruleset,
+    pub(super) cache: Option<Cache>,
     /// Names what compiled code is for; compiles nothing.
-    compiler: Engine,
+    pub(super) compiler: Engine,
     sandbox: Sandbox,
 }
 
-/// A robot that plays in workers.
-pub struct RemoteRobot {
-    digest: Digest,
-    code: Arc<Code>,
-    cache: CacheUse,
-    needs: Option<Needs>,
-}
-
-impl RemoteRobot {
-    /// The digest of the file that was admitted.
-    pub const fn digest(&self) -> &Digest {
-        &self.digest
-    }
-
-    /// Where its compiled code came from.
-    pub const fn cache_use(&self) -> &CacheUse {
-        &self.cache
-    }
-
-    /// What it needs before it does anything.
-    pub const fn needs(&self) -> Option<Needs> {
-        self.needs
-    }
-}
-
 impl Supervisor {
-    /// A supervisor for matches by these rules, with compiled robots kept in `cache`. Starts the first worker, to see how well it is
-    /// confined.
+    /// A supervisor for matches by these rules, with compiled robots kept in `cache`.
+    /// Starts the first worker, to see how well it is confined.
     ///
     /// # Errors
     ///
@@ -108,73 +81,6 @@ impl Supervisor {
         self.sandbox
     }
 
-    /// Admits a file as a robot.
-    ///
-    /// # Errors
-    ///
-    /// When the host fails; the inner error is the reason why the file is refused.
-    pub fn admit(&self, bytes: &[u8]) -> Result<Result<RemoteRobot, Refusal>, HostError> {
-        if let Err(refusal) = self.check_size(bytes) {
-            return Ok(Err(refusal));
-        }
-        let digest = Digest::of(bytes);
-        if let Some(code) = self.cached(&digest)
-            && let Some(admitted) = self.load(&digest, Arc::new(code), CacheUse::Hit)?
-        {
-            return Ok(admitted);
-        }
-        let (findings, cache) = match self.compile(bytes, &digest)? {
-            Ok(compiled) => compiled,
-            Err(refusal) => return Ok(Err(refusal)),
-        };
-        let code = match (findings.examined.result, findings.code) {
-            (Compiled::Refused(told), _) => return Ok(Err(told.into())),
-            (Compiled::Code { .. }, Some(code)) => code,
-            (Compiled::Failed(reason), _) => return Err(compile_failed(reason)),
-            _ => return Err(compile_failed("it sent no code".into())),
-        };
-        let damaged = || compile_failed("its code is damaged as soon as it is written".into());
-        self.load(&digest, Arc::new(code), cache)?
-            .ok_or_else(damaged)
-    }
-
-    /// Looks at a file as [`Supervisor::admit`] would, and tells everything.
-    ///
-    /// # Errors
-    ///
-    /// When the host fails.
-    pub fn inspect(&self, bytes: &[u8]) -> Result<Inspection, HostError> {
-        let mut inspection = Inspection::new(bytes);
-        if let Err(refusal) = self.check_size(bytes) {
-            inspection.refusal = Some(refusal);
-            return Ok(inspection);
-        }
-        let wanted = Wanted {
-            code: false,
-            description: true,
-        };
-        let passing = || Destination::passing();
-        let findings = match self.compiler().examine(bytes, wanted, &passing)? {
-            Ok(findings) => findings,
-            Err(refusal) => {
-                inspection.refusal = Some(refusal);
-                return Ok(inspection);
-            }
-        };
-        inspection.kind = findings.examined.kind;
-        inspection.shape = findings.examined.shape;
-        inspection.wit = findings.examined.wit;
-        match findings.examined.result {
-            Compiled::Refused(told) => inspection.refusal = Some(told.into()),
-            Compiled::Failed(reason) => return Err(compile_failed(reason)),
-            Compiled::NotWanted | Compiled::Code { .. } => match self.admit(bytes)? {
-                Ok(robot) => inspection.needs = robot.needs,
-                Err(refusal) => inspection.refusal = Some(refusal),
-            },
-        }
-        Ok(inspection)
-    }
-
     /// Plays matches of a robot, and hands over their records in order, until `each`
     /// breaks.
     pub fn play(
@@ -202,8 +108,8 @@ impl Supervisor {
     ) -> Result<Record, HostError> {
         let worker = self.worker(&robot.digest)?;
         match self.play_one(worker, robot, (game, true), recorder) {
-            Ok(record) => record,
-            Err(_) => self.play_alone(robot, (game, true), recorder),
+            Ok(Ok(record)) => Ok(record),
+            Ok(Err(_)) | Err(_) => self.play_alone(robot, (game, true), recorder),
         }
     }
 
@@ -270,14 +176,20 @@ impl Supervisor {
             };
             let mut done = 0;
             let mut flow = ControlFlow::Continue(());
+            let mut failed = false;
             let ended = self.try_batch(worker, robot, (left, false), recorder, &mut |record| {
+                // A match that the worker itself gave up is played again too.
+                if record.is_err() {
+                    failed = true;
+                    return ControlFlow::Break(());
+                }
                 done += 1;
                 flow = each(record);
                 flow
             });
             flow?;
             left = left.get(done..).unwrap_or_default();
-            if ended.is_err()
+            if (failed || ended.is_err())
                 && let Some((first, rest)) = left.split_first()
             {
                 each(self.play_alone(robot, (first, false), recorder))?;
@@ -375,108 +287,6 @@ impl Supervisor {
             None => PlayWorker::start(&self.starter, &self.rules),
         }
     }
-
-    fn check_size(&self, bytes: &[u8]) -> Result<(), Refusal> {
-        let max = self.rules.limits.component_bytes_max;
-        if bytes.is_empty() {
-            return Err(Refusal::Empty);
-        }
-        if u64::try_from(bytes.len()).map_or(true, |size| size > max) {
-            return Err(Refusal::TooLarge { max });
-        }
-        Ok(())
-    }
-
-    fn cached(&self, digest: &Digest) -> Option<Code> {
-        self.cache.as_ref()?.open_code(&self.compiler, digest)
-    }
-
-    const fn compiler(&self) -> Compiler<'_> {
-        Compiler {
-            starter: &self.starter,
-            limits: &self.rules.limits,
-        }
-    }
-
-    /// Compiles a file into the cache, or into a passing file where that cannot be.
-    fn compile(
-        &self,
-        bytes: &[u8],
-        digest: &Digest,
-    ) -> Result<Result<(Findings, CacheUse), Refusal>, HostError> {
-        let wanted = Wanted {
-            code: true,
-            description: false,
-        };
-        let compiler = self.compiler();
-        let passing = |cache: CacheUse| {
-            let examined = compiler.examine(bytes, wanted, &|| Destination::passing())?;
-            Ok(examined.map(|findings| (findings, cache)))
-        };
-        let Some(cache) = &self.cache else {
-            return passing(CacheUse::Off);
-        };
-        let kept = || cache.destination(&self.compiler, digest);
-        match compiler.examine(bytes, wanted, &kept) {
-            Ok(examined) => Ok(examined.map(|findings| (findings, CacheUse::Stored))),
-            // The cache has no room; perhaps there is some elsewhere.
-            Err(HostError::Room(reason)) => {
-                let error = cache.failure(reason);
-                passing(CacheUse::Failed(error.to_string()))
-            }
-            Err(error) => Err(error),
-        }
-    }
-
-    /// Has a worker load the code; `None` when the code is damaged.
-    fn load(
-        &self,
-        digest: &Digest,
-        code: Arc<Code>,
-        cache: CacheUse,
-    ) -> Result<Option<Result<RemoteRobot, Refusal>>, HostError> {
-        let mut tries = 0;
-        loop {
-            tries += 1;
-            let mut worker = match self.pool.take(digest) {
-                // One that has the robot already would not say what it needs.
-                Some(worker) => worker,
-                None => PlayWorker::start(&self.starter, &self.rules)?,
-            };
-            match worker.load(digest, &code) {
-                Ok(Some(Loaded::Damaged)) => {
-                    self.pool.put(worker);
-                    if let Some(cache) = &self.cache {
-                        cache.forget(&self.compiler, digest);
-                    }
-                    return Ok(None);
-                }
-                Ok(Some(Loaded::Refused(told))) => {
-                    self.pool.put(worker);
-                    return Ok(Some(Err(told.into())));
-                }
-                Ok(loaded) => {
-                    self.pool.put(worker);
-                    let needs = match loaded {
-                        Some(Loaded::Ready(needs)) => needs,
-                        _ => None,
-                    };
-                    return Ok(Some(Ok(RemoteRobot {
-                        digest: *digest,
-                        code,
-                        cache,
-                        needs,
-                    })));
-                }
-                Err(error) => {
-                    let death = worker.bury(&error);
-                    if tries == TRIES {
-                        return Err(play_failed(death.to_string()));
-                    }
-                }
-            }
-        }
-    }
 }
 
 /// The record of a match that ends its worker each time.
@@ -503,36 +313,9 @@ fn crashed(death: &Death, game: &Game<'_>, recorder: &mut Recorder) -> Record {
     }
 }
 
-fn play_failed(reason: String) -> HostError {
+pub(super) fn play_failed(reason: String) -> HostError {
     HostError::Worker {
         role: Role::Play.name(),
         reason,
-    }
-}
-
-fn compile_failed(reason: String) -> HostError {
-    HostError::Worker {
-        role: Role::Compile.name(),
-        reason,
-    }
-}
-
-impl From<ToldRefusal> for Refusal {
-    fn from(told: ToldRefusal) -> Self {
-        Self::Told {
-            name: told.name,
-            reason: told.reason,
-            hint: told.hint,
-        }
-    }
-}
-
-impl From<Refusal> for ToldRefusal {
-    fn from(refusal: Refusal) -> Self {
-        Self {
-            name: refusal.name().to_owned(),
-            reason: refusal.to_string(),
-            hint: refusal.hint().to_owned(),
-        }
     }
 }

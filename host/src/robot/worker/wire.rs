@@ -2,9 +2,9 @@
 //!
 //! A frame is its length (4 bytes, little endian) and a value in the `postcard`
 //! format; large bytes follow a frame that tells their number. Both ends are the
-//! same build of wasmouse, and [`Hello`] says so before anything else counts. This is no public
-//! format: what a supervisor reads may still be anything, because a robot may have
-//! taken the worker over, so frames have a largest size and values are checked by
+//! same build of wasmouse, and [`Hello`] says so before anything else counts. This is no
+//! public format: what a supervisor reads may still be anything, because a robot may
+//! have taken the worker over, so frames have a largest size and values are checked by
 //! whoever uses them.
 
 use std::io::{self, Read, Write};
@@ -207,8 +207,6 @@ pub(super) enum Compiled {
     },
     /// It is no robot.
     Refused(ToldRefusal),
-    /// The worker could not work.
-    Failed(String),
 }
 
 /// The only frame to a worker that explains; the file follows.
@@ -289,6 +287,30 @@ mod tests {
         assert_eq!(expect::<u32>(&mut from).expect("a frame"), 7);
         assert!(read::<u32>(&mut from).expect("the end").is_none());
         expect::<u32>(&mut from).expect_err("the end");
+    }
+
+    /// What a taken-over worker claims is no reason to take memory.
+    #[test]
+    fn frames_have_a_largest_size() {
+        // The value's own length takes four bytes.
+        let mut value = vec![1_u8; FRAME_BYTES_MAX - 4];
+        let mut bytes = Vec::new();
+        write(&mut bytes, &value).expect("the largest frame");
+        let back: Vec<u8> = expect(&mut bytes.as_slice()).expect("the largest frame");
+        assert!(back == value);
+
+        value.push(1);
+        write(&mut Vec::new(), &value).expect_err("one byte more");
+        let length = u32::try_from(FRAME_BYTES_MAX + 1).expect("a small number");
+        let mut claim = length.to_le_bytes().to_vec();
+        claim.resize(claim.len() + FRAME_BYTES_MAX + 1, 0);
+        let mut from = claim.as_slice();
+        let error = read::<Vec<u8>>(&mut from).expect_err("one byte more");
+        assert!(
+            error.to_string().contains("claims 4194305 bytes"),
+            "{error}"
+        );
+        assert_eq!(from.len(), FRAME_BYTES_MAX + 1, "nothing of it is read");
     }
 
     #[test]
