@@ -8,9 +8,10 @@ use std::time::Duration;
 use wasmouse::contest::{Contest, ContestMaze, Entrant, Played};
 use wasmouse::maze::generate::GenSpec;
 use wasmouse::robot::bundled::find;
+use wasmouse::robot::componentize::componentize;
 use wasmouse::robot::{
-    Digest, Executable, Game, HostError, Isolation, PATIENCE, Recorder, Referee, Trust, Verdict,
-    Workers,
+    Digest, Executable, Frame, Game, HostError, Isolation, PATIENCE, Recorder, Referee, Trust,
+    Verdict, Workers,
 };
 use wasmouse::sim::Ruleset;
 
@@ -214,6 +215,33 @@ fn refusals_are_the_same_in_workers() {
     assert_unharmed(&inside);
 }
 
+/// Where a robot fails; the same in workers as in this process.
+fn explained(bytes: &[u8]) -> Vec<Frame> {
+    let mazes: GenSpec = "gen:braid:12:1".parse().expect("a specification");
+    let (_, maze) = mazes.expand().next().expect("one maze");
+    let rules = Ruleset::default();
+    let game = Game {
+        maze: &maze,
+        rules: &rules,
+        seed: 0,
+        setting: 0,
+    };
+    let referee = real();
+    let [here, there] = [Trust::Trusted, Trust::Stranger].map(|trust| {
+        let player = referee.admit(bytes, trust).expect("the host works");
+        let player = player.unwrap_or_else(|refusal| panic!("refused: {refusal}"));
+        let mut recorder = Recorder::default();
+        let outcome = referee.record(&player, &game, &mut recorder);
+        let Verdict::Fault(fault) = outcome.expect("the host works").verdict else {
+            panic!("no fault");
+        };
+        let frames = referee.explain(&player, bytes, &game, &fault);
+        frames.expect("the host works").expect("the same fault")
+    });
+    assert_eq!(here, there);
+    there
+}
+
 /// Where a robot fails is told in names, in workers as in this process, and names of any
 /// length and kind are only text.
 #[test]
@@ -228,31 +256,61 @@ fn faults_are_explained_by_the_calls_in_progress() {
         next: "call $outer i32.const 16",
         ..Module::default()
     };
-    let bytes = robot.component();
-    let mazes: GenSpec = "gen:braid:12:1".parse().expect("a specification");
-    let (_, maze) = mazes.expand().next().expect("one maze");
-    let rules = Ruleset::default();
-    let game = Game {
-        maze: &maze,
-        rules: &rules,
-        seed: 0,
-        setting: 0,
-    };
-    let referee = real();
-    let explained = [Trust::Trusted, Trust::Stranger].map(|trust| {
-        let player = referee.admit(&bytes, trust).expect("the host works");
-        let player = player.unwrap_or_else(|refusal| panic!("refused: {refusal}"));
-        let mut recorder = Recorder::default();
-        let outcome = referee.record(&player, &game, &mut recorder);
-        let Verdict::Fault(fault) = outcome.expect("the host works").verdict else {
-            panic!("no fault");
-        };
-        let frames = referee.explain(&player, &bytes, &game, &fault);
-        frames.expect("the host works").expect("the same fault")
-    });
-    assert_eq!(explained[0], explained[1]);
-    let functions: Vec<&str> = explained[0].iter().map(|it| it.function.as_str()).collect();
+    let frames = explained(&robot.component());
+    let functions: Vec<&str> = frames.iter().map(|it| it.function.as_str()).collect();
     assert_eq!(functions[0], "plan");
     assert_eq!(functions[1], "x".repeat(160));
     assert_eq!(functions.len(), 3, "{functions:?}");
+}
+
+/// With debug information also in source lines, whatever else that information says.
+#[test]
+fn faults_are_explained_in_source_lines() {
+    let text = Module {
+        rest: "(func $inner unreachable)",
+        next: "call $inner i32.const 16",
+        ..Module::default()
+    };
+    let module = text.core_with_lines("src/robot.wat");
+    let robot = componentize(&module).expect("a robot");
+    let frames = explained(&robot);
+    let line_of = |what: &str| text.wat().lines().position(|line| line.contains(what));
+    for (frame, what) in frames.iter().zip(["unreachable", "call $inner"]) {
+        let line = line_of(what).expect("it is in the text") + 1;
+        let source = frame.source.as_deref().unwrap_or_default();
+        assert!(
+            source.starts_with(&format!("src/robot.wat:{line}:")),
+            "{frames:?}"
+        );
+    }
+    assert_eq!(frames[0].function, "inner");
+
+    // Any byte of the debug information may be anything.
+    let sections = [".debug_info", ".debug_abbrev", ".debug_line", ".debug_str"];
+    let places = sections.iter().filter_map(|name| {
+        let found = robot
+            .windows(name.len())
+            .position(|it| it == name.as_bytes());
+        Some(found? + name.len())
+    });
+    let mut tried = 0;
+    for place in places {
+        for (at, byte) in (place..place + 60)
+            .step_by(7)
+            .zip([0, 0xff, 0x7f, 0x80].into_iter().cycle())
+        {
+            let mut broken = robot.clone();
+            broken[at] = byte;
+            // Where debug information ends, other sections may begin.
+            if host(Ruleset::default().limits).admit(&broken).is_ok() {
+                assert_eq!(
+                    explained(&broken).len(),
+                    frames.len(),
+                    "byte {at} is {byte}"
+                );
+                tried += 1;
+            }
+        }
+    }
+    assert!(tried > 20, "{tried}");
 }

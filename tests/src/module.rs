@@ -77,6 +77,20 @@ impl Module<'_> {
         wasm(&self.wat())
     }
 
+    /// The module in binary form with DWARF debug information: its lines are those of the
+    /// text, in a file of that name.
+    ///
+    /// # Panics
+    ///
+    /// When the text is none of WebAssembly.
+    #[track_caller]
+    pub fn core_with_lines(&self, file: &str) -> Vec<u8> {
+        let mut parser = wat::Parser::new();
+        parser.generate_dwarf(wat::GenerateDwarf::Lines);
+        let module = parser.parse_str(Some(file.as_ref()), self.wat());
+        module.unwrap_or_else(|error| panic!("{error}\n{}", self.wat()))
+    }
+
     /// The robot: a component around the module.
     ///
     /// # Panics

@@ -62,7 +62,9 @@ fn tell_frames(robot: &str, frames: &[Frame]) {
     for (depth, frame) in frames.iter().enumerate() {
         let function = visible(&frame.function);
         lines.push_str(&format!("\n  {depth:>2}: {function}"));
-        if let Some(offset) = frame.offset {
+        if let Some(source) = &frame.source {
+            lines.push_str(&format!(" at {}", visible(source)));
+        } else if let Some(offset) = frame.offset {
             lines.push_str(&format!(" (byte {offset} of its module)"));
         }
     }

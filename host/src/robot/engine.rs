@@ -10,6 +10,7 @@ use std::time::Duration;
 
 use wasmtime::{
     Config, Enabled, Engine, EngineWeak, InstanceAllocationStrategy, PoolingAllocationConfig,
+    WasmBacktraceDetails,
 };
 
 use super::{HostError, backtrace, cost};
@@ -64,7 +65,8 @@ pub fn engine_config(limits: &Limits, matches: u32) -> Config {
 }
 
 /// An engine for one match at a time that knows, when a robot fails, where in its code
-/// it was. Fuel and verdicts are those of [`new_engine`]; its code is larger.
+/// it was: in names and, where it has debug information, in source lines. Fuel and
+/// verdicts are those of [`new_engine`]; its code is larger.
 ///
 /// # Errors
 ///
@@ -73,6 +75,7 @@ pub(super) fn new_explainer(limits: &Limits) -> Result<Engine, HostError> {
     let mut config = engine_config(limits, 1);
     config.wasm_backtrace_max_frames(NonZeroUsize::new(backtrace::FRAMES_MAX));
     config.generate_address_map(true);
+    config.wasm_backtrace_details(WasmBacktraceDetails::Enable);
     Engine::new(&config).map_err(HostError::engine)
 }
 
@@ -119,6 +122,8 @@ fn compiler_config(limits: &Limits) -> Config {
     // Backtraces come from replaying a failed match, not from every match.
     config.wasm_backtrace_max_frames(None);
     config.generate_address_map(false);
+    // Said, because otherwise an environment variable decides.
+    config.wasm_backtrace_details(WasmBacktraceDetails::Disable);
     // Only needed by native profilers and unwinders.
     config.native_unwind_info(false);
     config

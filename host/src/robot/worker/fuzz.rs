@@ -194,6 +194,7 @@ pub fn examples(robot: &[u8]) -> Vec<Vec<u8>> {
                     vec![Frame {
                         function: "main".into(),
                         offset: Some(7),
+                        source: Some("src/lib.rs:12:5".into()),
                     }],
                 )),
             },
