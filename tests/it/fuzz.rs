@@ -33,6 +33,11 @@ fn specifications() {
 }
 
 #[test]
+fn results() {
+    check("results");
+}
+
+#[test]
 fn admission() {
     check("admission");
 }

@@ -44,6 +44,8 @@
 
 mod difference;
 mod finder;
+#[doc(hidden)]
+pub mod fuzz;
 mod place;
 mod read;
 #[cfg(test)]

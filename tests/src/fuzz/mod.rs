@@ -12,6 +12,7 @@ mod matches;
 mod mazes;
 mod mutate;
 mod protocol;
+mod results;
 mod smith;
 mod specifications;
 mod variants;
@@ -47,7 +48,12 @@ pub type Run = Box<dyn FnMut(&[u8]) -> String>;
 
 /// All targets.
 pub fn targets() -> Vec<Target> {
-    let mut targets = vec![mazes::TARGET, specifications::TARGET, admission::TARGET];
+    let mut targets = vec![
+        mazes::TARGET,
+        specifications::TARGET,
+        results::TARGET,
+        admission::TARGET,
+    ];
     targets.extend(protocol::TARGETS);
     targets.extend([matches::TARGET, differential::TARGET]);
     targets
