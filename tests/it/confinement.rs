@@ -1,4 +1,5 @@
-//! What workers cannot do, tried from inside.
+//! What workers cannot do, tried from inside, and what is said and done where the kernel
+//! cannot confine them.
 
 #![cfg(target_os = "linux")]
 
@@ -6,6 +7,10 @@ use std::collections::BTreeMap;
 use std::fs::File;
 use std::os::fd::AsRawFd as _;
 use std::process::{Command, Stdio};
+
+use wasmouse::robot::bundled::find;
+
+use crate::binary::{self, Ran, ran};
 
 /// What the probe says of each attempt; see `tests/bin/confinement_probe.rs`.
 fn probe(role: &str) -> BTreeMap<String, String> {
@@ -80,4 +85,70 @@ fn the_worker_that_explains_is_confined() {
         "explain",
         &["map executable memory", "make memory executable"],
     );
+}
+
+/// `wasmouse` in a folder with a stranger's robot, as on a kernel without those features.
+fn run_without(features: &[&str], arguments: &[&str]) -> Ran {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let flood = find("flood").expect("a bundled robot").component;
+    std::fs::write(folder.path().join("stranger.wasm"), flood).expect("a file");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_kernel-without"));
+    command.args(features).arg("--").arg(binary::path());
+    command.args(arguments).arg("--cache").arg("cache");
+    ran(command.current_dir(folder.path()))
+}
+
+#[test]
+fn an_incomplete_kernel_is_told_once_and_changes_nothing() {
+    let run = [
+        "run",
+        "stranger.wasm",
+        "flood",
+        "stranger.wasm",
+        "test_maze_01",
+        "--json",
+    ];
+    let complete = run_without(&[], &run);
+    if complete.stderr != "" {
+        println!(
+            "skipped: this kernel is incomplete itself: {}",
+            complete.stderr
+        );
+        return;
+    }
+    for (features, named) in [
+        (&["landlock"][..], "landlock"),
+        (&["seccomp"], "seccomp"),
+        (&["landlock", "seccomp"], "landlock and seccomp"),
+    ] {
+        let incomplete = run_without(features, &run);
+        assert_eq!(incomplete.status.code(), Some(0), "{}", incomplete.stderr);
+        assert!(incomplete.stdout == complete.stdout, "without {named}");
+        assert_eq!(
+            incomplete.stderr,
+            format!(
+                "warning: this system has no {named}, so strangers' robots are kept apart by \
+                 processes with fewer restrictions; --require-sandbox refuses to go on\n"
+            )
+        );
+    }
+}
+
+#[test]
+fn a_sandbox_that_is_required_and_missing_ends_it() {
+    let check = |features: &[&str], arguments: &[&str], code: i32, expected: &str| {
+        let told = run_without(features, &[arguments, &["--require-sandbox"]].concat());
+        let what = format!("{features:?} {arguments:?}: {}{}", told.stdout, told.stderr);
+        assert_eq!(told.status.code(), Some(code), "{what}");
+        assert!(told.stderr.contains(expected), "{what}");
+    };
+    let hint = "hint: use Linux 5.13 or later with landlock and seccomp, or leave \
+                --require-sandbox out\n";
+    let run = ["run", "stranger.wasm", "test_maze_01"];
+    for features in [&["landlock"][..], &["seccomp"]] {
+        check(features, &run, 5, hint);
+        check(features, &["inspect", "stranger.wasm"], 5, hint);
+    }
+    // Robots of our own need none.
+    check(&["landlock"], &["run", "flood", "test_maze_01"], 0, "");
 }

@@ -2,8 +2,8 @@
 //! work in one cache, a full disk, compiled robots damaged on disk. Nothing is scored
 //! wrongly, nothing is lost, no process stays behind, no file is half written.
 //!
-//! The tests that are ignored by default do the same 200 times; `cargo test -p
-//! wasmouse-tests --test it -- --ignored faults` runs them.
+//! The tests that are ignored by default do the same 200 times; `cargo test --workspace
+//! --test it -- --ignored faults` runs them.
 
 #![cfg(target_os = "linux")]
 

@@ -184,6 +184,31 @@ fn a_worker_of_another_build_is_refused() {
     }
 }
 
+/// Killed by somebody else before it has said anything: that is no reason to end.
+#[cfg(unix)]
+#[test]
+fn a_worker_that_is_killed_as_it_starts_is_started_again() {
+    use std::os::unix::fs::PermissionsExt as _;
+
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (script, mark) = (folder.path().join("worker"), folder.path().join("killed"));
+    let text = format!(
+        "#!/bin/sh\nif [ ! -e '{mark}' ]; then : > '{mark}'; kill -9 $$; fi\nexec '{}' \"$@\"\n",
+        binary::path().display(),
+        mark = mark.display(),
+    );
+    std::fs::write(&script, text).expect("a file");
+    std::fs::set_permissions(&script, std::fs::Permissions::from_mode(0o755))
+        .expect("its own file");
+    let referee = referee(Executable::at(&script), PATIENCE);
+    let flood = find("flood").expect("a bundled robot").component;
+    let player = referee
+        .admit(flood, Trust::Stranger)
+        .expect("the host works");
+    assert!(player.is_ok(), "it is a robot");
+    assert!(mark.exists(), "one was killed");
+}
+
 #[test]
 fn refusals_are_the_same_in_workers() {
     let referee = real();

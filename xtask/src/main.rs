@@ -17,7 +17,12 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     /// Do what CI does: format, lints, docs, build, robots, tests, licences.
-    Test,
+    Test {
+        /// Also what takes minutes each: faults 200 times over, every robot in 2,000
+        /// mazes, and the hostile corpus's slow cases.
+        #[arg(long)]
+        long: bool,
+    },
     /// Build the bundled robots into example-robots/prebuilt.
     Robots {
         /// Build nothing: say which prebuilt robots are stale.
@@ -43,7 +48,7 @@ enum Command {
 fn main() -> ExitCode {
     let root = repository();
     let outcome = match Cli::parse().command {
-        Command::Test => verify::run(&root),
+        Command::Test { long } => verify::run(&root, long),
         Command::Robots { check: false } => robots::rebuild(&root),
         Command::Robots { check: true } => robots::check(&root),
         Command::Corpus { arguments } => corpus::run(&root, &arguments),

@@ -4,6 +4,7 @@
 //! for the whole workspace, so that features are unified in one way and the
 //! heavy dependencies are compiled once for checking and once for running.
 
+use std::ffi::OsString;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -13,12 +14,12 @@ use crate::{corpus, robots};
 /// Where the tests find robots that were built from source just now.
 pub const BUILT_ROBOTS_VARIABLE: &str = "WASMOUSE_BUILT_ROBOTS";
 
-/// Runs all steps.
+/// Runs all steps; with `long`, also the tests and cases that take minutes each.
 ///
 /// # Errors
 ///
 /// A line that names the step that failed.
-pub fn run(root: &Path) -> Result<(), String> {
+pub fn run(root: &Path, long: bool) -> Result<(), String> {
     Step::cargo("format", root)
         .args(["fmt", "--all", "--check"])
         .run()?;
@@ -38,11 +39,17 @@ pub fn run(root: &Path) -> Result<(), String> {
         .run()?;
     let built = target_folder(root).join("robots");
     robots::build_all(root, &built)?;
+    let (ignored, cases): (&[&str], &[OsString]) = if long {
+        (&["--", "--include-ignored"], &["--long".into()])
+    } else {
+        (&[], &[])
+    };
     Step::cargo("tests", root)
         .args(["test", "--workspace"])
+        .args(ignored)
         .env(BUILT_ROBOTS_VARIABLE, &built)
         .run()?;
-    corpus::play(root, &[])?;
+    corpus::play(root, cases)?;
     eprintln!("everything holds");
     Ok(())
 }

@@ -46,6 +46,14 @@ pub struct Target {
 /// What is called with each input.
 pub type Run = Box<dyn FnMut(&[u8]) -> String>;
 
+/// Robots around random modules, those that are a part of the repository: most are
+/// refused or fail, some drive.
+pub fn strangers() -> Vec<Vec<u8>> {
+    let inputs = matches::seeds();
+    let files = inputs.iter().filter_map(|it| matches::robot_file(it));
+    files.collect()
+}
+
 /// All targets.
 pub fn targets() -> Vec<Target> {
     let mut targets = vec![

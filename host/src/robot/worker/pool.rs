@@ -21,6 +21,9 @@ const MAZE_SLOTS: u16 = 1024;
 /// What a worker may take to load a robot.
 const LOAD_TIME_MAX: Duration = Duration::from_secs(60);
 
+/// How often a worker is started that is killed at once.
+const STARTS_MAX: u32 = 4;
+
 /// A worker that plays, with what it has been given.
 pub(super) struct PlayWorker {
     process: Process,
@@ -61,8 +64,26 @@ impl Pool {
 }
 
 impl PlayWorker {
-    /// Starts a worker for matches by these rules.
+    /// Starts a worker for matches by these rules; another when that is killed from
+    /// outside before it has said anything.
     pub(super) fn start(starter: &Starter, rules: &Ruleset) -> Result<Self, HostError> {
+        let mut tries = 0;
+        loop {
+            tries += 1;
+            match Self::try_start(starter, rules)? {
+                Ok(worker) => return Ok(worker),
+                Err(death) if death.is_kill() && tries < STARTS_MAX => {}
+                Err(death) => {
+                    return Err(HostError::Worker {
+                        role: Role::Play.name(),
+                        reason: death.to_string(),
+                    });
+                }
+            }
+        }
+    }
+
+    fn try_start(starter: &Starter, rules: &Ruleset) -> Result<Result<Self, Death>, HostError> {
         let mut process = Process::start(starter, Role::Play)?;
         let greeted = process
             .send(&Setup { rules: *rules })
@@ -72,7 +93,7 @@ impl PlayWorker {
             Ok(sandbox) if !starter.may_use(sandbox) => Err(HostError::Unconfined(sandbox)),
             Ok(sandbox) => {
                 process.expect_nothing();
-                Ok(Self {
+                Ok(Ok(Self {
                     process,
                     sandbox,
                     patience: starter.workers.patience,
@@ -80,12 +101,9 @@ impl PlayWorker {
                     next_robot: 0,
                     mazes: HashMap::new(),
                     next_maze: 0,
-                })
+                }))
             }
-            Err(error) => Err(HostError::Worker {
-                role: Role::Play.name(),
-                reason: process.bury(&error).to_string(),
-            }),
+            Err(error) => Ok(Err(process.bury(&error))),
         }
     }
 
