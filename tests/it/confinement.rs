@@ -109,7 +109,7 @@ fn an_incomplete_kernel_is_told_once_and_changes_nothing() {
         "--json",
     ];
     let complete = run_without(&[], &run);
-    if complete.stderr != "" {
+    if !complete.stderr.is_empty() {
         println!(
             "skipped: this kernel is incomplete itself: {}",
             complete.stderr

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-use crate::binary::wasmouse;
+use crate::binary::{stdout_of, wasmouse};
 
 /// Waits until something is so.
 fn wait(what: &str, mut is_so: impl FnMut() -> bool) {
@@ -110,4 +110,58 @@ fn an_interrupted_contest_prints_what_was_played() {
     assert_eq!(report["standings"][0]["matches"], played);
     let told = format!("interrupted: {} matches were not played", 100_000 - played);
     assert!(stderr.contains(&told), "{stderr}");
+}
+
+/// The second playing is on two threads where the first was on one.
+#[test]
+fn an_interrupted_second_time_says_so() {
+    let robot = ["run", "random", "gen:tree:20:1..=2", "--repeat", "3000"];
+    let child = start(&[&robot[..], &["--json", "--no-cache", "--jobs=1", "--twice"]].concat());
+    wait("the second time begins", || {
+        has_thread(child.id(), "matches-1")
+    });
+    interrupt(&child);
+    let output = child.wait_with_output().expect("the program ends");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{stderr}");
+    let told = stderr.strip_prefix("interrupted: ").expect("it says so");
+    let (count, rest) = told.split_once(' ').expect("a number of matches");
+    assert_eq!(rest, "matches were not played a second time\n");
+    let count: u32 = count.parse().expect("a number");
+    assert!((1..=6000).contains(&count), "{count}");
+    // The first time was played to its end.
+    let report: Value = serde_json::from_slice(&output.stdout).expect("complete JSON");
+    assert_eq!(report["complete"], true);
+}
+
+#[test]
+fn an_interrupted_verification_does_not_verify() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("result.json");
+    let robot = [
+        "run",
+        "random",
+        "gen:tree:20:1..=2",
+        "--repeat",
+        "3000",
+        "--json",
+    ];
+    let recorded = stdout_of(wasmouse().args(robot));
+    fs::write(&path, recorded).expect("a file");
+    let path = path.to_str().expect("UTF-8");
+    let child = start(&["verify", path, "--json", "--no-cache"]);
+    wait("matches begin", || has_thread(child.id(), "matches-"));
+    interrupt(&child);
+    let output = child.wait_with_output().expect("the program ends");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{stderr}");
+    let expected = format!(" matches of `{path}` were not played again\n");
+    assert!(stderr.starts_with("interrupted: "), "{stderr}");
+    assert!(stderr.ends_with(&expected), "{stderr}");
+    let report: Value = serde_json::from_slice(&output.stdout).expect("complete JSON");
+    assert_eq!(report["verified"], false);
+    assert_eq!(
+        report["results"][0]["differences"].as_array().map(Vec::len),
+        Some(0)
+    );
 }
