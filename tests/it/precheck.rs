@@ -5,9 +5,12 @@ use std::time::Instant;
 
 use proptest::prelude::*;
 use wasmouse::robot::bundled::bundled;
+use wasmouse::robot::componentize::BinaryKind;
+use wasmouse::robot::engine_config;
 use wasmouse::robot::precheck::{Measure, Measures, precheck};
 use wasmouse::sim::Limits;
 use wasmouse_tests::{bombs, corpus};
+use wasmtime::component::Component;
 
 /// The most that a decision may take here, unoptimised and beside other tests: far
 /// more than it does, and far less than compiling would.
@@ -301,6 +304,68 @@ fn proposals_that_are_off() {
         let lower = told.to_lowercase();
         assert!(lower.contains(&words.to_lowercase()), "{text}: {told}");
     }
+}
+
+/// The check knows no engine; it lets through the proposals that the engine has, and no
+/// others.
+#[test]
+fn the_proposals_are_those_of_the_engine() {
+    let engine = wasmtime::Engine::new(&engine_config(&Limits::default(), 1));
+    let engine = engine.expect("address space for one match");
+    let mut counts = [0, 0];
+    for text in [
+        // A proposal each, by the names of wasmparser's features.
+        "(module (global (import \"m\" \"g\") (mut i32)) (export \"g\" (global 0)))",
+        "(module (func (result i32) f32.const 0 i32.trunc_sat_f32_s))",
+        "(module (func (result i32) i32.const 0 i32.extend8_s))",
+        "(module (table 1 externref))",
+        "(module (func (result i32 i32) i32.const 0 i32.const 0))",
+        "(module (memory 1) (func i32.const 0 i32.const 0 i32.const 0 memory.fill))",
+        "(module (func (result v128) v128.const i64x2 0 0))",
+        "(module (func (result v128) v128.const i64x2 0 0 v128.const i64x2 0 0
+            i8x16.relaxed_swizzle))",
+        "(module (memory 1 1 shared))",
+        "(module (memory 1) (func (result i32) i32.const 0 i32.atomic.load))",
+        "(module (func $f return_call $f))",
+        "(module (memory 1) (memory 1))",
+        "(module (tag))",
+        "(module (func try_table end))",
+        "(module (memory i64 1))",
+        "(module (table i64 1 funcref))",
+        "(module (global i32 (i32.add (i32.const 1) (i32.const 2))))",
+        "(module (type $t (func)) (func (param (ref $t)) local.get 0 call_ref $t))",
+        "(module (type (struct)))",
+        "(module (type (array i8)))",
+        "(module (func (result i31ref) i32.const 0 ref.i31))",
+        "(module (memory 1 (pagesize 1)))",
+        "(module (func (result i64 i64) i64.const 0 i64.const 0 i64.const 0 i64.const 0
+            i64.add128))",
+        "(module (type $f (func)) (type (cont $f)))",
+        "(component (type (stream u8)))",
+        "(component (type (future u8)))",
+        "(component (type (func async)))",
+        "(component (core func (canon thread.index)))",
+        "(component (core func (canon backpressure.inc)))",
+        "(component (type (list u8 4)))",
+        "(component (type (map string u8)))",
+        "(component (type error-context))",
+        "(component (import \"v\" (value string)))",
+        "(component (core module) (core instance (instantiate 0)))",
+        "(component (import \"a:b/c@1.2.3\" (instance)))",
+        "(component (type (resource (rep i32))))",
+        "(component (type (enum \"a\" \"b\")) (type (record (field \"f\" u8))))",
+    ] {
+        let file = wat::parse_str(text).unwrap_or_else(|error| panic!("{text}: {error}"));
+        let engine_has_it = match BinaryKind::of(&file) {
+            BinaryKind::Component => Component::from_binary(&engine, &file).is_ok(),
+            _ => wasmtime::Module::validate(&engine, &file).is_ok(),
+        };
+        let admitted = precheck(&file, &Limits::default());
+        assert_eq!(admitted.is_ok(), engine_has_it, "{text}: {admitted:?}");
+        counts[usize::from(engine_has_it)] += 1;
+    }
+    println!("{} are off, {} are on", counts[0], counts[1]);
+    assert!(counts[0] > 10 && counts[1] > 10, "{counts:?}");
 }
 
 proptest! {
