@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 
 use clap::Parser;
 use serde_json::{Value, json};
+use wasmouse::report::visible;
 use wasmouse_tests::binary;
 use wasmouse_tests::corpus::{Bench, Case, Judgement, Mode, cases};
 
@@ -160,10 +161,14 @@ fn row(cli: &Cli, case: &Case, mode: Mode, judgement: &Judgement) -> String {
         if judgement.is_well() { "ok" } else { "NO" },
     );
     if cli.reasons && !judgement.reason.is_empty() {
-        row += &format!("\n       {}", judgement.reason);
+        row += &format!("\n       {}", visible(&judgement.reason));
     }
     for problem in &judgement.problems {
-        row += &format!("\n       expected {}; {problem}", judgement.expected);
+        row += &format!(
+            "\n       expected {}; {}",
+            judgement.expected,
+            visible(problem)
+        );
     }
     row
 }

@@ -9,32 +9,99 @@ use crate::composite::Composite;
 
 /// The cases 70 to 78.
 pub fn cases() -> Vec<Case> {
-    let bomb = |numbers, name: &str, make: fn() -> Vec<u8>| {
-        Case::new(numbers, name, refused("over-limit", "..."), move || {
+    let bomb = |numbers, name: &str, told: &str, make: fn() -> Vec<u8>| {
+        let reason = format!("the file has {told}...)");
+        Case::new(numbers, name, refused("over-limit", &reason), move || {
             beside(&make())
         })
-        .long()
     };
     vec![
-        bomb(&[70], "1000-nested-loops", || nested_loops(1000)),
-        bomb(&[70], "10000-nested-loops", || nested_loops(10_000)),
-        bomb(&[71], "10000-locals-with-branches", || {
-            locals_with_branches(10_000)
-        }),
-        bomb(&[71], "50000-locals-in-a-function", || {
-            function(&[leb128(1), leb128(50_000), vec![I32]].concat(), &[])
-        }),
-        bomb(&[72], "a-wall-of-br-tables", br_tables),
-        bomb(&[73], "a-million-functions", million_functions),
-        bomb(&[74], "a-function-of-7-mb", || {
-            function(NO_LOCALS, &CONST_DROP.repeat(2_500_000))
-        }),
-        bomb(&[75], "calls-with-1000-parameters", many_parameters),
-        bomb(&[76], "a-constant-expression-of-a-megabyte", huge_constant),
-        bomb(&[77], "a-million-globals", million_globals),
-        bomb(&[77], "a-million-exports", million_exports),
-        bomb(&[77], "a-million-types", million_types),
-        bomb(&[78], "a-block-of-simd", simd),
+        bomb(
+            &[70],
+            "1000-nested-loops",
+            "65 loops inside each other, and the limit is 64 (",
+            || nested_loops(1000),
+        ),
+        bomb(
+            &[70],
+            "10000-nested-loops",
+            "65 loops inside each other, and the limit is 64 (",
+            || nested_loops(10_000),
+        ),
+        bomb(
+            &[71],
+            "10000-locals-with-branches",
+            "64006400 variables times blocks in a function, and the limit is 64000000 (",
+            || locals_with_branches(10_000),
+        ),
+        Case::new(
+            &[71],
+            "50000-locals-in-a-function",
+            refused(
+                "invalid",
+                "the component is not valid: too many locals: locals exceed maximum at byte ...",
+            ),
+            || {
+                beside(&function(
+                    &[leb128(1), leb128(50_000), vec![I32]].concat(),
+                    &[],
+                ))
+            },
+        ),
+        bomb(
+            &[72],
+            "a-wall-of-br-tables",
+            "1884002 bytes in a function, and the limit is 1048576 (",
+            br_tables,
+        ),
+        bomb(
+            &[73],
+            "a-million-functions",
+            "1000002 functions, and the limit is 60000 (",
+            million_functions,
+        ),
+        bomb(
+            &[74],
+            "a-function-of-7-mb",
+            "7500002 bytes in a function, and the limit is 1048576 (",
+            || function(NO_LOCALS, &CONST_DROP.repeat(2_500_000)),
+        ),
+        bomb(
+            &[75],
+            "calls-with-1000-parameters",
+            "1000 parameters and results of one function or block, and the limit is 200 (",
+            many_parameters,
+        ),
+        bomb(
+            &[76],
+            "a-constant-expression-of-a-megabyte",
+            "1050003 bytes in a constant expression, and the limit is 200 (",
+            huge_constant,
+        ),
+        bomb(
+            &[77],
+            "a-million-globals",
+            "1000000 items of one kind in a core module, and the limit is 100000 (",
+            million_globals,
+        ),
+        bomb(
+            &[77],
+            "a-million-exports",
+            "1000000 items of one kind in a core module, and the limit is 100000 (",
+            million_exports,
+        ),
+        bomb(
+            &[77],
+            "a-million-types",
+            "1000000 function types in a core module, and the limit is 5000 (",
+            million_types,
+        ),
+        bomb(
+            &[78],
+            "a-block-of-simd",
+            "4500008 bytes in a function, and the limit is 1048576 (",
+            simd,
+        ),
         // What is large and no bomb.
         Case::new(&[74], "a-function-of-100-kb", harmless(), || {
             beside(&function(NO_LOCALS, &CONST_DROP.repeat(33_000)))

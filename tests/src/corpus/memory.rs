@@ -204,7 +204,10 @@ fn proposals() -> Vec<Case> {
         Case::new(
             &[31],
             name,
-            refused("...", &format!("...{words}...")),
+            refused(
+                "core-module",
+                &format!("malformed core module: ...{words}... at byte ..."),
+            ),
             move || {
                 Module {
                     rest: field,
@@ -267,7 +270,7 @@ fn segments() -> Vec<Case> {
             "100001-data-segments",
             refused(
                 "over-limit",
-                "the file has 100001 items of one kind in a core module...100000...",
+                "the file has 100001 items of one kind in a core module, and the limit is 100000 (byte ...)",
             ),
             || {
                 Module {

@@ -39,51 +39,80 @@ fn component_names() -> Vec<Case> {
         Case::new(
             &[61],
             "conflicting-import-names",
-            refused("...", "..."),
+            refused(
+                "invalid",
+                "the component is not valid: import name `A-B` conflicts with previous name `a-b` at byte ...",
+            ),
             || importing(r#"(import "a-b" (func)) (import "A-B" (func))"#),
         ),
         Case::new(
             &[61],
             "conflicting-export-names",
-            refused("...", "..."),
+            refused(
+                "invalid",
+                "the component is not valid: export name `A-B` conflicts with previous name `a-b` at byte ...",
+            ),
             || exporting(r#"(export "a-b" (func $start)) (export "A-B" (func $start))"#),
         ),
         Case::new(
             &[61],
             "export-name-with-an-escape",
-            refused("...", "..."),
+            refused(
+                "invalid",
+                "the component is not valid: export name `...` is not a valid extern name: `...` is not in kebab case at byte ...",
+            ),
             || exporting(r#"(export "\1b[31m\u{9b}\u{202e}" (func $start))"#),
         )
         .shown(),
         Case::new(
             &[61],
             "import-name-with-an-escape",
-            refused("...", "..."),
+            refused(
+                "invalid",
+                "the component is not valid: import name `...` is not a valid extern name: `...` is not in kebab case at byte ...",
+            ),
             || importing(r#"(import "\1b[31m\u{9b}\u{202e}" (func))"#),
         )
         .shown(),
-        Case::new(&[61], "import-name-of-90-kb", refused("...", "..."), || {
-            importing(&format!(r#"(import "{}" (func))"#, long(90_000)))
-        })
+        Case::new(
+            &[61],
+            "import-name-of-90-kb",
+            refused(
+                "over-limit",
+                "the file has 90000 bytes in a name, and the limit is 2000 (byte ...)",
+            ),
+            || importing(&format!(r#"(import "{}" (func))"#, long(90_000))),
+        )
         .shown(),
         Case::new(
             &[61],
             "import-name-of-a-megabyte",
-            refused("...", "..."),
+            refused(
+                "invalid",
+                "the component is not valid: string size out of bounds at byte ...",
+            ),
             || importing(&format!(r#"(import "{}" (func))"#, long(1_000_000))),
         ),
-        Case::new(&[61], "100000-export-names", refused("...", "..."), || {
-            let exports: String = (0..100_000)
-                .map(|at| format!(r#"(export "e{at}" (func $f))"#))
-                .collect();
-            wasm(&format!(
-                r#"(component
+        Case::new(
+            &[61],
+            "100000-export-names",
+            refused(
+                "over-limit",
+                "the file has 100004 component items, and the limit is 10000 (byte ...)",
+            ),
+            || {
+                let exports: String = (0..100_000)
+                    .map(|at| format!(r#"(export "e{at}" (func $f))"#))
+                    .collect();
+                wasm(&format!(
+                    r#"(component
                     (core module $m (func (export "f")))
                     (core instance $m (instantiate $m))
                     (func $f (canon lift (core func $m "f")))
                     {exports})"#
-            ))
-        })
+                ))
+            },
+        )
         .shown()
         .seconds(60),
     ]
@@ -94,7 +123,7 @@ fn module_names() -> Vec<Case> {
         Case::new(
             &[61],
             "module-export-names-of-90-kb",
-            refused("...", "..."),
+            refused("over-limit", "the file has 90001 bytes in a name, and the limit is 2000 (byte ...)"),
             || {
                 let exports: String = (0..100)
                     .map(|at| format!(r#"(func (export "{}{at}"))"#, long(90_000)))
@@ -106,7 +135,7 @@ fn module_names() -> Vec<Case> {
         Case::new(
             &[61],
             "module-import-of-90-kb",
-            refused("...", "..."),
+            refused("over-limit", "the file has 90000 bytes in a name, and the limit is 2000 (byte ...)"),
             || {
                 Module {
                     imports: &format!(r#"(import "{0}" "{0}" (func))"#, long(90_000)),
@@ -138,7 +167,7 @@ fn module_names() -> Vec<Case> {
         Case::new(
             &[69],
             "module-import-with-an-escape",
-            refused("core-module", "..."),
+            refused("core-module", "core module imports `\\u{202e}\\u{7}` from `\\u{1b}[31m\\u{9b}m`, which no robot may import"),
             || {
                 Module {
                     imports: r#"(import "\1b[31m\u{9b}m" "\u{202e}\07" (func))"#,
@@ -151,14 +180,17 @@ fn module_names() -> Vec<Case> {
         Case::new(
             &[69],
             "module-export-with-an-escape",
-            refused("core-module", "..."),
+            refused("core-module", "core module without component types that exports neither `wasmouse:robot/controller@0.1.0#start` nor `wasmouse:robot/controller@0.1.0#next-move`; it exports `\\u{1b}[31m\\u{9b}m\\u{202e}`"),
             || wasm(r#"(module (func (export "\1b[31m\u{9b}m\u{202e}")))"#),
         )
         .shown(),
         Case::new(
             &[69],
             "journal-function-with-an-escape",
-            refused("core-module", "..."),
+            refused(
+                "core-module",
+                "core module does not fit the world `wasmouse:robot/robot@0.1.0`: failed to decode world from module: ... is missing function `...` that is required by the module",
+            ),
             || {
                 Module {
                     imports: r#"(import "wasmouse:robot/journal@0.1.0" "\1b[31m\u{9b}m\u{202e}"

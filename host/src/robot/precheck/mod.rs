@@ -215,6 +215,8 @@ impl Check<'_> {
 
 impl From<wasmparser::BinaryReaderError> for Refusal {
     fn from(error: wasmparser::BinaryReaderError) -> Self {
-        Self::Invalid(format!("{} at byte {}", error.message(), error.offset()))
+        // Some messages have a second line with the cause.
+        let message = error.message().replace('\n', ": ");
+        Self::Invalid(format!("{message} at byte {}", error.offset()))
     }
 }
