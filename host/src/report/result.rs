@@ -5,7 +5,7 @@
 //! {
 //!   "schema": 1,
 //!   "wasmouse": "0.1.0",
-//!   "engine": "wasmtime-48.0.8+wasmouse.2",
+//!   "engine": "wasmtime-48.0.8+wasmouse.3",
 //!   "ruleset": {"name": "udacity", "version": 1, "sha256": "..."},
 //!   "seeds": [0],
 //!   "complete": true,

@@ -12,7 +12,7 @@ use wasmtime::OperatorCost;
 const GROW: u8 = 200;
 
 /// Operators that call into the runtime, whatever little they do there.
-const RUNTIME_CALL: u8 = 160;
+const RUNTIME_CALL: u8 = 200;
 
 /// Calls through a table: the callee's type is checked.
 const INDIRECT_CALL: u8 = 6;
@@ -23,10 +23,13 @@ const STORE: u8 = 8;
 const LOAD: u8 = 2;
 
 /// Arithmetic of floats, whose results are looked through for NaN.
-const FLOAT: u8 = 3;
+const FLOAT: u8 = 4;
 
 /// Roundings, minima and maxima of floats: sequences of instructions.
-const FLOAT_SEQUENCE: u8 = 8;
+const FLOAT_SEQUENCE: u8 = 10;
+
+/// Numbers of one kind made into numbers of another, which may trap.
+const CONVERSION: u8 = 2;
 
 /// Divisions and roots: the slowest things that a processor computes.
 const FLOAT_DIVISION: u8 = 16;
@@ -83,6 +86,13 @@ fn numbers(cost: &mut OperatorCost) {
         I32DivS I32DivU I32RemS I32RemU I64DivS I64DivU I64RemS I64RemU);
     set!(cost, FLOAT; F32Add F32Sub F32Mul F64Add F64Sub F64Mul);
     set!(cost, FLOAT; F32DemoteF64 F64PromoteF32);
+    set!(cost, CONVERSION;
+        I32TruncF32S I32TruncF32U I32TruncF64S I32TruncF64U
+        I64TruncF32S I64TruncF32U I64TruncF64S I64TruncF64U
+        I32TruncSatF32S I32TruncSatF32U I32TruncSatF64S I32TruncSatF64U
+        I64TruncSatF32S I64TruncSatF32U I64TruncSatF64S I64TruncSatF64U
+        F32ConvertI32S F32ConvertI32U F32ConvertI64S F32ConvertI64U
+        F64ConvertI32S F64ConvertI32U F64ConvertI64S F64ConvertI64U);
     set!(cost, FLOAT_SEQUENCE;
         F32Ceil F32Floor F32Trunc F32Nearest F32Min F32Max
         F64Ceil F64Floor F64Trunc F64Nearest F64Min F64Max);
