@@ -340,9 +340,7 @@ fn log_lines_have_to_be_text_of_a_sensible_size() {
         ),
         (
             logging(1, 64, 5000),
-            "interface (next-move): broke the interface: too much data is being \
-             copied between the host and the guest: fuel allocated for hostcalls has been \
-             exhausted",
+            "interface (next-move): handed the host more than 4096 bytes in one call",
         ),
     ] {
         check(

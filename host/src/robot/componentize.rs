@@ -19,6 +19,8 @@ use wasmparser::{Parser, Payload, Validator};
 use wit_component::{ComponentEncoder, StringEncoding, embed_component_metadata};
 use wit_parser::{Resolve, WorldId};
 
+use super::refusal::NAMES_SHOWN_MAX;
+
 /// The text of the WIT package `wasmouse:robot`, the contract every robot keeps.
 pub const ROBOT_WIT: &str = include_str!("../../../wit/robot.wit");
 
@@ -367,20 +369,18 @@ fn describe_foreign(bytes: &[u8]) -> String {
     format!("it begins with the bytes {}", first.join(" "))
 }
 
-/// At most 8 names, so that a message stays a message; text from a guest is
-/// escaped, because it ends up in terminals.
+/// Text from a guest is escaped, because it ends up in terminals.
 fn list_names(names: &BTreeSet<String>) -> String {
-    const SHOWN_MAX: usize = 8;
     if names.is_empty() {
         return "nothing".to_owned();
     }
     let mut shown: Vec<String> = names
         .iter()
-        .take(SHOWN_MAX)
+        .take(NAMES_SHOWN_MAX)
         .map(|name| format!("`{}`", name.escape_debug()))
         .collect();
-    if names.len() > SHOWN_MAX {
-        shown.push(format!("{} more", names.len() - SHOWN_MAX));
+    if names.len() > NAMES_SHOWN_MAX {
+        shown.push(format!("{} more", names.len() - NAMES_SHOWN_MAX));
     }
     shown.join(", ")
 }

@@ -106,12 +106,18 @@ impl fmt::Display for Fault {
     }
 }
 
+/// How wasmtime tells of a call that hands over too much. It calls the allowance fuel,
+/// which it is not: robots have other fuel.
+const TOO_MUCH_COPIED: &str = "fuel allocated for hostcalls has been exhausted";
+
 /// Sorts an error of a guest call: a fault of the robot, or of the host.
 ///
-/// `fuel` is the limit that the call ran under, with its size.
+/// `fuel` is the limit that the call ran under, with its size; `copied_max` how many
+/// bytes one call may hand to the host.
 pub(super) fn classify(
     error: &wasmtime::Error,
     fuel: (FuelLimit, u64),
+    copied_max: u64,
 ) -> Result<(FaultKind, String), HostError> {
     if let Some(limit) = error.downcast_ref::<LimitExceeded>() {
         let kind = match limit {
@@ -126,10 +132,13 @@ pub(super) fn classify(
     let Some(trap) = error.downcast_ref::<Trap>() else {
         // Everything else that a call returns is about lifting what the robot
         // handed over: discriminants, pointers, strings, sizes.
-        return Ok((
-            FaultKind::Interface,
-            format!("broke the interface: {error:#}"),
-        ));
+        let told = format!("{error:#}");
+        let detail = if told.contains(TOO_MUCH_COPIED) {
+            format!("handed the host more than {copied_max} bytes in one call")
+        } else {
+            format!("broke the interface: {told}")
+        };
+        return Ok((FaultKind::Interface, detail));
     };
     let (kind, detail) = match trap {
         Trap::OutOfFuel => return Ok(out_of_fuel(fuel)),
@@ -173,7 +182,7 @@ mod tests {
     use super::*;
 
     fn sorted(error: impl Into<wasmtime::Error>) -> Result<(FaultKind, String), HostError> {
-        classify(&error.into(), (FuelLimit::Step, 7))
+        classify(&error.into(), (FuelLimit::Step, 7), 100)
     }
 
     #[test]

@@ -317,7 +317,8 @@ impl<'a> Runner<'a> {
                     FuelLimit::Start | FuelLimit::Step => fuel,
                 };
                 self.frames = backtrace::frames(&error);
-                let (kind, detail) = classify(&error, (limit, told))?;
+                let copied_max = self.game.rules.limits.host_call_bytes_max;
+                let (kind, detail) = classify(&error, (limit, told), copied_max)?;
                 Err(Stop { kind, detail })
             }
         };

@@ -63,12 +63,19 @@ pub enum Refusal {
 /// The export that makes a component a robot.
 pub(super) const CONTROLLER: &str = "wasmouse:robot/controller@0.1.0";
 
+/// At most so many names are listed, so that a message stays a message.
+pub(super) const NAMES_SHOWN_MAX: usize = 8;
+
 fn list(names: &[String]) -> String {
     if names.is_empty() {
         return "nothing".into();
     }
-    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-    quoted.join(", ")
+    let shown = names.iter().take(NAMES_SHOWN_MAX);
+    let mut shown: Vec<String> = shown.map(|name| format!("`{name}`")).collect();
+    if names.len() > NAMES_SHOWN_MAX {
+        shown.push(format!("{} more", names.len() - NAMES_SHOWN_MAX));
+    }
+    shown.join(", ")
 }
 
 impl Refusal {
@@ -127,5 +134,21 @@ impl Refusal {
                  and unrolled tables are better written as loops over data"
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_lists_of_names_end() {
+        let names: Vec<String> = (1..=20).map(|number| format!("e{number}")).collect();
+        let told = Refusal::NoController(names).to_string();
+        assert!(
+            told.ends_with("it exports `e1`, `e2`, `e3`, `e4`, `e5`, `e6`, `e7`, `e8`, 12 more")
+        );
+        let told = Refusal::NoController(Vec::new()).to_string();
+        assert!(told.ends_with("it exports nothing"), "{told}");
     }
 }

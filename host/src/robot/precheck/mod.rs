@@ -45,7 +45,8 @@
 //! within the limits, those that come nearest to their estimate reach nine tenths of
 //! it: indirect calls, arithmetic after a long chain of blocks, and values that are
 //! spilled. The most that one function within the limits was seen to take is 11 s
-//! and 425 MB. Whatever the estimate misses, the process that compiles has its own
+//! and 425 MB. Checking alone, with a process for it, takes 0.2 s for the Python robot in
+//! a release build, and 0.01 s for one in C. Whatever the estimate misses, the process that compiles has its own
 //! limits on time and memory.
 
 mod component;
