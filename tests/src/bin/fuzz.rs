@@ -19,8 +19,8 @@ struct Cli {
     #[arg(value_name = "TARGET")]
     only: Vec<String>,
     /// Minutes for each target
-    #[arg(long, default_value_t = 30.0)]
-    minutes: f64,
+    #[arg(long, default_value = "30", value_name = "MINUTES", value_parser = minutes)]
+    minutes: Duration,
     /// Where the random numbers begin; another one each time by default
     #[arg(long)]
     seed: Option<u64>,
@@ -38,6 +38,9 @@ struct Cli {
     /// Try the inputs in these files instead, with one target
     #[arg(long, value_name = "FILE", num_args = 1..)]
     replay: Vec<PathBuf>,
+    /// Write the inputs that runs begin with to FOLDER/TARGET instead, for another fuzzer
+    #[arg(long, value_name = "FOLDER")]
+    seeds: Option<PathBuf>,
     /// Say what there is to fuzz
     #[arg(long)]
     list: bool,
@@ -67,7 +70,11 @@ fn main() -> ExitCode {
         eprintln!("error: there is no such target; --list tells all");
         return ExitCode::FAILURE;
     }
-    match run(&cli, &chosen) {
+    let outcome = match &cli.seeds {
+        Some(folder) => write_seeds(folder, &chosen).map(|()| 0),
+        None => run(&cli, &chosen),
+    };
+    match outcome {
         Ok(0) => ExitCode::SUCCESS,
         Ok(count) => {
             eprintln!("{count} findings, in {}", cli.findings.display());
@@ -78,6 +85,18 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+fn write_seeds(folder: &Path, targets: &[Target]) -> io::Result<()> {
+    for target in targets {
+        let seeds = (target.seeds)();
+        let folder = folder.join(target.name);
+        for seed in &seeds {
+            save(&folder, &format!("{:016x}", digest(seed)), seed)?;
+        }
+        println!("{} inputs in `{}`", seeds.len(), folder.display());
+    }
+    Ok(())
 }
 
 /// Runs the targets one after the other and counts what is wrong.
@@ -104,6 +123,12 @@ fn run(cli: &Cli, targets: &[Target]) -> io::Result<usize> {
     Ok(count)
 }
 
+/// A time in minutes, of which a part may be meant.
+fn minutes(text: &str) -> Result<Duration, String> {
+    let minutes: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    Duration::try_from_secs_f64(minutes * 60.0).map_err(|error| error.to_string())
+}
+
 fn any_seed() -> u64 {
     let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
     now.map_or(0, |now| now.as_secs())
@@ -115,7 +140,8 @@ fn fuzz(
     folder: &Path,
     (watch, stop): (&Watch, &AtomicBool),
 ) -> io::Result<usize> {
-    let minutes = cli.minutes;
+    let time = cli.minutes;
+    let minutes = time.as_secs_f64() / 60.0;
     println!("{}: seed {seed}, {minutes} minutes", target.name);
     let mut smith = match &cli.smith {
         Some(program) if target.takes_modules => Some(Smith::start(program)?),
@@ -123,7 +149,6 @@ fn fuzz(
     };
     let mut fuzzer = Fuzzer::new(target, seed);
     let begin = Instant::now();
-    let time = Duration::from_secs_f64(minutes * 60.0);
     let mut told = begin;
     let mut memory = Memory::new();
     while begin.elapsed() < time && !stop.load(Ordering::Relaxed) {
@@ -196,7 +221,8 @@ fn digest(input: &[u8]) -> u64 {
 fn replay(target: Target, files: &[PathBuf], watch: &Watch) -> io::Result<usize> {
     let mut run = (target.make)();
     for file in files {
-        let input = fs::read(file)?;
+        let input = fs::read(file)
+            .map_err(|error| io::Error::other(format!("`{}`: {error}", file.display())))?;
         watch.begin(&input);
         let begin = Instant::now();
         let outcome = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| run(&input)));

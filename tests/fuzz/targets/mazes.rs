@@ -1,0 +1,3 @@
+#![no_main]
+
+wasmouse_fuzz::target!("mazes");
