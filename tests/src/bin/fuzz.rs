@@ -49,6 +49,9 @@ struct Cli {
 /// The longest that an input may take, on a machine that may be busy with other things.
 const INPUT_TIME_MAX: Duration = Duration::from_secs(60);
 
+/// Time between two looks at the clock.
+const LOOK_TIME: Duration = Duration::from_millis(500);
+
 /// What the process may grow by while one target runs, in KiB.
 const GROWTH_KIB_MAX: u64 = 512 << 10;
 
@@ -300,8 +303,12 @@ impl Watch {
         let watched = Arc::clone(&current);
         thread::Builder::new().name("watch".into()).spawn(move || {
             loop {
-                thread::sleep(Duration::from_millis(500));
-                let current = lock(&watched);
+                let begin = Instant::now();
+                thread::sleep(LOOK_TIME);
+                // While the whole process is stopped, no input takes time.
+                let stopped = begin.elapsed().saturating_sub(2 * LOOK_TIME);
+                let mut current = lock(&watched);
+                current.since = current.since.map(|since| since + stopped);
                 if current.is_over {
                     return;
                 }
