@@ -1,14 +1,24 @@
-//! Plays the champion natively in mazes given as files and prints its mean regret:
-//! score minus the score of a robot that knows the maze.
+//! Plays the champion natively in mazes given as files and prints, for each folder, its
+//! mean regret (score minus the score of a robot that knows the maze) with the standard
+//! error of the mean, and what it is made of.
 //!
-//!     wasmouse maze generate gen:division:12..=20:1..=50 -o mazes
-//!     cargo run --release -p robot-champion --example regret -- mazes/*
+//!     wasmouse maze generate gen:division:12..=20:1..=50 -o division
+//!     wasmouse maze generate gen:tree,loops=12:12..=20:1..=50 -o tree
+//!     cargo run --release -p robot-champion --example regret -- -d division/* tree/*
 //!
 //! Files are of the Udacity text format, with the contest's start and goal. Before them,
 //! `-v` prints a line for each, and `-d` plays the setting `deep`.
+//!
+//! The parts of the regret, which add up to it, in steps of the race: what it took to
+//! reach the goal for the first time, beyond the fewest steps and divided by 30; what
+//! was explored from then on, divided by 30; what the race took beyond the fewest steps.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::time::Instant;
 
 use robot_champion::Champion;
-use wasmouse_sdk::testing::{self, PlayOptions, Stop};
+use wasmouse_sdk::testing::{self, PlayOptions, Played};
 use wasmouse_sdk::{Area, Cell, CellSet, Heading, Passages, Search};
 
 fn main() {
@@ -16,53 +26,116 @@ fn main() {
     let verbose = files.iter().any(|it| it == "-v");
     let setting = u32::from(files.iter().any(|it| it == "-d"));
     files.retain(|it| !it.starts_with('-'));
-    let (mut sum, mut scores, mut failed) = (0.0, 0.0, 0);
-    let options = PlayOptions {
-        setting,
-        ..PlayOptions::default()
-    };
-    let clock = std::time::Instant::now();
+    let options = PlayOptions::of_setting(setting);
+    let mut sets: BTreeMap<String, Set> = BTreeMap::new();
     for file in &files {
         let text = std::fs::read_to_string(file).expect("a maze file");
+        let clock = Instant::now();
         let played = testing::play::<Champion>(&text, &options);
-        let Some(score) = played.score else {
-            println!("{file}: {}", played.summary());
-            failed += 1;
-            continue;
-        };
-        let score = score.thousandths() as f64 / 1000.0;
-        let regret = score - floor(&text);
-        if verbose {
-            let in_goal = |stop: &Stop| goal(&text).contains(stop.cell);
-            let first = played.stops.iter().position(in_goal);
-            println!(
-                "{file}: {} regret {regret:.3} goal after {first:?}",
-                played.summary()
-            );
+        let milliseconds = clock.elapsed().as_secs_f64() * 1000.0;
+        let parts = Parts::of(&played, &text);
+        if verbose || parts.is_none() {
+            let parts = parts.map_or_else(String::new, Parts::line);
+            println!("{file}: {} {parts}", played.summary());
         }
-        sum += regret;
-        scores += score;
+        let folder = Path::new(file).parent().unwrap_or(Path::new(""));
+        let set = sets.entry(folder.display().to_string()).or_default();
+        set.milliseconds.push(milliseconds);
+        set.scores += played.score.map_or(0, |it| it.thousandths());
+        set.matches.extend(parts);
     }
-    let count = files.len() - failed;
-    println!(
-        "{count} finished, {failed} not; mean regret {:.3}, sum of scores {scores:.3}, {:.1} ms a match",
-        sum / count as f64,
-        clock.elapsed().as_secs_f64() * 1000.0 / files.len() as f64
-    );
+    for (folder, set) in sets {
+        println!("{folder}: {}", set.line());
+    }
 }
 
-fn goal(maze: &str) -> Area {
-    Area::center(passages(maze).dimension())
+/// The regret of a match, in steps of the race.
+#[derive(Clone, Copy)]
+struct Parts {
+    to_goal: f64,
+    from_goal: f64,
+    race: f64,
 }
 
-fn floor(maze: &str) -> f64 {
-    let passages = passages(maze);
-    let mut search = Search::new(passages.dimension(), 3);
-    search.fill(&passages, &CellSet::from(goal(maze)));
-    let optimum = search
-        .steps(Cell::new(0, 0))
-        .expect("the goal is reachable");
-    f64::from(optimum) + f64::from(optimum + 1) / 30.0
+impl Parts {
+    /// `None` of a match that was not finished.
+    fn of(played: &Played, maze: &str) -> Option<Self> {
+        played.score?;
+        let passages = passages(maze);
+        let goal = Area::center(passages.dimension());
+        let mut search = Search::new(passages.dimension(), 3);
+        search.fill(&passages, &CellSet::from(goal));
+        let optimum = f64::from(search.steps(Cell::new(0, 0))?);
+        let first = played.stops.iter().position(|it| goal.contains(it.cell))? as f64;
+        let exploration = f64::from(played.exploration_steps) - 1.0;
+        Some(Self {
+            to_goal: (first - optimum) / 30.0,
+            from_goal: (exploration - first) / 30.0,
+            race: f64::from(played.speed_steps) - optimum,
+        })
+    }
+
+    fn sum(self) -> f64 {
+        self.to_goal + self.from_goal + self.race
+    }
+
+    fn line(self) -> String {
+        format!(
+            "regret {:.3} = to the goal {:.3} + from the goal {:.3} + race {:.3}",
+            self.sum(),
+            self.to_goal,
+            self.from_goal,
+            self.race
+        )
+    }
+}
+
+/// The matches in the mazes of a folder.
+#[derive(Default)]
+struct Set {
+    /// Those that were finished.
+    matches: Vec<Parts>,
+    /// Their scores added up, in thousandths.
+    scores: u64,
+    /// How long each match took.
+    milliseconds: Vec<f64>,
+}
+
+impl Set {
+    fn line(&self) -> String {
+        let mean = |part: fn(Parts) -> f64| mean(self.matches.iter().map(|it| part(*it)));
+        let means = Parts {
+            to_goal: mean(|it| it.to_goal),
+            from_goal: mean(|it| it.from_goal),
+            race: mean(|it| it.race),
+        };
+        let regrets: Vec<f64> = self.matches.iter().map(|it| it.sum()).collect();
+        let times = self.milliseconds.iter().copied();
+        format!(
+            "{} finished, {} not; {} (standard error {:.3}); sum of scores {:.3}; \
+             {:.1} ms a match, at most {:.1}",
+            self.matches.len(),
+            self.milliseconds.len() - self.matches.len(),
+            means.line(),
+            standard_error(&regrets),
+            self.scores as f64 / 1000.0,
+            times.clone().sum::<f64>() / self.milliseconds.len() as f64,
+            times.fold(0.0, f64::max)
+        )
+    }
+}
+
+fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = values.len() as f64;
+    values.sum::<f64>() / count
+}
+
+/// Of the mean.
+fn standard_error(values: &[f64]) -> f64 {
+    let mean = mean(values.iter().copied());
+    let squares: f64 = values.iter().map(|it| (it - mean).powi(2)).sum();
+    let count = values.len() as f64;
+    (squares / (count - 1.0) / count).sqrt()
 }
 
 /// The passages of a maze in the Udacity format.
