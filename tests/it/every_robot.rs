@@ -50,7 +50,7 @@ const MAY_FAIL: &[(&str, Option<&str>)] = &[
 ];
 
 /// Who has no map to show, or shows none.
-const WITHOUT_MAP: &[&str] = &["champion", "random", "wall-follower"];
+const WITHOUT_MAP: &[&str] = &["random", "wall-follower"];
 
 /// Walls that every robot with a map knows at the end of a match in any legal maze.
 const KNOWN_WALLS_MIN: u32 = 40;

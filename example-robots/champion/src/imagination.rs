@@ -1,19 +1,22 @@
 //! Deciding by playing to the end in imagined mazes: [`Imagination`].
 //!
-//! Where to look next, and whether to go on at all? The rules of the [`Planner`] answer
-//! in an instant, but know only one way at a time. Here they are put to the test: each
-//! thing that could be done now is done in every maze of the [`Ensemble`], and from
-//! then on the rules decide, to the reset. What that costs on average, in steps of
-//! exploring, says what to do (a rollout policy; Bertsekas and Castanon, *Rollout
-//! Algorithms for Stochastic Scheduling Problems*, 1999). All alternatives are played
-//! in the same mazes, so that what counts is the difference in each; the rules are
-//! overruled only when it is clear.
+//! The robot has been in the goal: where to look next, and whether to go on at all? The
+//! rules of the [`Planner`] answer in an instant, but know only one way at a time. Here
+//! they are put to the test: each thing that could be done now is done in every maze of
+//! the [`Ensemble`], and from then on the rules decide, to the reset. What that costs
+//! on average, in steps of exploring, says what to do (a rollout policy; Bertsekas and
+//! Castanon, *Rollout Algorithms for Stochastic Scheduling Problems*, 1999). All
+//! alternatives are played in the same mazes, so that what counts is the difference in
+//! each; the rules are overruled only when it is clear.
+//!
+//! On the way to the goal the rules decide alone: there, as many imagined matches as
+//! the fuel allows decided no better (in trees, worse by four steps of exploring).
 
-use wasmouse_sdk::{Area, Briefing, Cell, CellSet, Grid, Hop, Passages, Pose, Search};
+use wasmouse_sdk::{Briefing, Cell, CellSet, Grid, Hop, Passages, Pose, Search};
 
 use crate::alternative::{Alternative, choose, drop_bad};
 use crate::ensemble::Ensemble;
-use crate::knowledge::{Knowledge, Known, STEP};
+use crate::knowledge::{Knowledge, Known};
 use crate::planner::{Plan, Planner, add_vantages};
 
 /// How many places to look from are tried at most, besides what the rule says.
@@ -22,12 +25,8 @@ const PLACES: usize = 5;
 /// Mazes before the first alternative may be dropped.
 const MAZES_MIN: usize = 8;
 
-/// The rule is overruled when something is better by this many standard errors:
-/// before the goal has been reached, and afterwards.
-const CLEAR: [f32; 2] = [2.0, 1.0];
-
-/// What an imagined match costs that does not find the goal, in steps of the race.
-const LOST: u32 = 200;
+/// The rule is overruled when something is better by this many standard errors.
+const CLEAR: f32 = 1.0;
 
 /// Exploring ends without further thought when knowing everything would save less
 /// than this many steps of exploring.
@@ -37,15 +36,15 @@ const WORTH_MIN: f32 = 2.0;
 const STEPS_MAX: u32 = 400;
 
 /// Work of a match: its imagined steps, each counted as [`STEP_WORK`] and the number of
-/// cells, and its decisions. Each takes some 60 operators, of which many cost more than
+/// cells, and its mazes drawn. Each takes some 60 operators, of which many cost more than
 /// one unit of fuel: this stays within the 20 thousand million that a match may use.
 const WORK_MAX: u64 = 120_000_000;
 
 /// See [`WORK_MAX`].
 const STEP_WORK: u64 = 230;
 
-/// What a decision costs besides, for each cell of the maze: drawing the mazes.
-const DECISION_WORK: u64 = 850;
+/// What it costs, for each cell of the maze, to draw the mazes after news.
+const DRAWING_WORK: u64 = 850;
 
 /// A decision may use this part of the work that is left: enough is left for later
 /// ones, and no step uses the fuel of many.
@@ -65,21 +64,10 @@ pub struct Imagination {
     work_left: u64,
 }
 
-/// Where a match stands when a decision is due.
-pub struct Moment<'a> {
-    /// What is known and believed.
-    pub knowledge: &'a Knowledge,
-    /// Where the robot is.
-    pub cell: Cell,
-    /// Whether a step has ended in the goal.
-    pub goal_seen: bool,
-}
-
 /// The robot of an imagined match.
 struct Tourist {
     cell: Cell,
     steps: u32,
-    goal_seen: bool,
 }
 
 impl Imagination {
@@ -102,91 +90,57 @@ impl Imagination {
         self.work_left == 0
     }
 
-    /// The hops to drive until there is news. None says that exploring on does not
-    /// pay, or that there is nowhere to go.
-    pub fn decide(&mut self, planner: &mut Planner, ensemble: &Ensemble, now: &Moment) -> Vec<Hop> {
-        let rule = if now.goal_seen {
-            match planner.explore(now.knowledge, now.cell) {
-                Plan::Drive(hop) => Some(hop),
-                Plan::Look | Plan::Stop => None,
-            }
-        } else {
-            planner.toward_goal(now.knowledge, now.cell)
-        };
-        let rule: Vec<Hop> = rule.into_iter().collect();
-        if rule.is_empty() && !now.goal_seen {
-            return rule;
-        }
+    /// Takes note that mazes have been drawn.
+    pub fn count_drawing(&mut self) {
         let cells = u64::from(self.grid.dimension().pow(2));
-        self.work_left = self.work_left.saturating_sub(DECISION_WORK * cells);
-        self.imagine(planner, ensemble, now);
-        let places = if now.goal_seen {
-            self.places_for_better_ways(planner, now)
-        } else {
-            Some(self.places_toward_goal(planner, now))
+        self.work_left = self.work_left.saturating_sub(DRAWING_WORK * cells);
+    }
+
+    /// The hops to drive until there is news. None says that exploring on does not
+    /// pay. The goal has been reached.
+    pub fn decide(
+        &mut self,
+        planner: &mut Planner,
+        ensemble: &Ensemble,
+        now: &Knowledge,
+        cell: Cell,
+    ) -> Vec<Hop> {
+        let rule: Vec<Hop> = match planner.explore(now, cell) {
+            Plan::Drive(hop) => vec![hop],
+            Plan::Look | Plan::Stop => Vec::new(),
         };
+        self.mazes.clear();
+        let mazes = 0..ensemble.sample_count();
+        let mazes = mazes.map(|index| ensemble.sample(index).to_vec());
+        self.mazes.extend(mazes);
         // With so little to gain, whatever the rule says.
-        let Some(places) = places else {
+        let Some(places) = self.places_for_better_ways(planner, now, cell) else {
             return Vec::new();
         };
         let mut alternatives = vec![Alternative::new(rule)];
-        if now.goal_seen && !alternatives[0].hops.is_empty() {
+        if !alternatives[0].hops.is_empty() {
             alternatives.push(Alternative::new(Vec::new()));
         }
-        let from = CellSet::from(now.cell);
-        self.search.fill(&now.knowledge.open, &from);
+        self.search.fill(&now.open, &CellSet::from(cell));
         for place in places {
-            let hops = self.hops_to(now.knowledge, place);
+            let hops = self.hops_to(now, place);
             if alternatives.iter().all(|it| it.hops != hops) {
                 alternatives.push(Alternative::new(hops));
             }
         }
-        let best = self.compare(planner, now, &mut alternatives);
+        let best = self.compare(planner, now, cell, &mut alternatives);
         alternatives.swap_remove(best).hops
-    }
-
-    /// Copies the mazes. Where one has no way to the goal, the walls that most likely
-    /// make one are opened.
-    fn imagine(&mut self, planner: &mut Planner, ensemble: &Ensemble, now: &Moment) {
-        let count = ensemble.sample_count();
-        self.mazes.resize(count, Vec::new());
-        for (index, maze) in self.mazes.iter_mut().enumerate() {
-            maze.clear();
-            maze.extend_from_slice(ensemble.sample(index));
-            if !now.goal_seen {
-                planner.connect(now.knowledge, maze);
-            }
-        }
-    }
-
-    /// The places from which something unknown is seen, those on the cheapest ways to
-    /// the goal first.
-    fn places_toward_goal(&mut self, planner: &mut Planner, now: &Moment) -> Vec<Cell> {
-        let (knowledge, grid) = (now.knowledge, self.grid);
-        let from = CellSet::from(now.cell);
-        self.search.fill(&knowledge.open, &from);
-        let cells = Area::new(Cell::new(0, 0), grid.dimension(), grid.dimension()).cells();
-        let places: Vec<Cell> = cells
-            .filter(|&it| it != now.cell && self.search.steps(it).is_some())
-            .filter(|&it| self.goal.contains(it) || knowledge.sees_unknown(it))
-            .collect();
-        let costs = planner.begin(knowledge, &places);
-        let mut ranked: Vec<(u32, Cell)> = Vec::new();
-        for (&place, cost) in places.iter().zip(costs) {
-            if let (Some(steps), Some(cost)) = (self.search.steps(place), cost) {
-                ranked.push((steps * u32::from(STEP) + cost, place));
-            }
-        }
-        ranked.sort();
-        ranked.truncate(PLACES);
-        ranked.into_iter().map(|it| it.1).collect()
     }
 
     /// The places that promise most: for each, what the imagined mazes say could be
     /// gained by ways whose walls are seen from there, less the steps to go there.
     /// `None` when all of it together is not worth looking for.
-    fn places_for_better_ways(&mut self, planner: &mut Planner, now: &Moment) -> Option<Vec<Cell>> {
-        let (now, from) = (now.knowledge, now.cell);
+    fn places_for_better_ways(
+        &mut self,
+        planner: &mut Planner,
+        now: &Knowledge,
+        from: Cell,
+    ) -> Option<Vec<Cell>> {
         let known_steps = planner.known_steps(&now.open)?;
         let mut gains = vec![0; self.grid.cell_count()];
         let mut total = 0;
@@ -207,7 +161,7 @@ impl Imagination {
         if (total as f32) * scale < WORTH_MIN {
             return None;
         }
-        planner.begin(now, &[]);
+        planner.begin(now);
         self.search.fill(&now.open, &CellSet::from(from));
         let mut ranked: Vec<(f32, usize)> = Vec::new();
         for (place, &gain) in gains.iter().enumerate().filter(|it| *it.1 > 0) {
@@ -255,7 +209,8 @@ impl Imagination {
     fn compare(
         &mut self,
         planner: &mut Planner,
-        now: &Moment,
+        now: &Knowledge,
+        cell: Cell,
         alternatives: &mut [Alternative],
     ) -> usize {
         if alternatives.len() == 1 {
@@ -265,7 +220,7 @@ impl Imagination {
         let mazes = std::mem::take(&mut self.mazes);
         for (played, maze) in (1..).zip(&mazes) {
             for alternative in alternatives.iter_mut().filter(|it| !it.is_dropped) {
-                let cost = self.play(planner, maze, now, &alternative.hops);
+                let cost = self.play(planner, maze, now, cell, &alternative.hops);
                 alternative.costs.push(cost as f32);
             }
             let is_decided = played >= MAZES_MIN && played % 4 == 0 && drop_bad(alternatives) == 1;
@@ -274,34 +229,34 @@ impl Imagination {
             }
         }
         self.mazes = mazes;
-        choose(alternatives, CLEAR[usize::from(now.goal_seen)])
+        choose(alternatives, CLEAR)
     }
 
     /// What an alternative costs in an imagined maze, in steps of exploring.
-    fn play(&mut self, planner: &mut Planner, maze: &[u8], now: &Moment, hops: &[Hop]) -> u32 {
-        self.knowledge.copy(now.knowledge);
+    fn play(
+        &mut self,
+        planner: &mut Planner,
+        maze: &[u8],
+        now: &Knowledge,
+        cell: Cell,
+        hops: &[Hop],
+    ) -> u32 {
+        self.knowledge.copy(now);
         planner.again();
-        let mut tourist = Tourist {
-            cell: now.cell,
-            steps: 0,
-            goal_seen: now.goal_seen,
-        };
+        let mut tourist = Tourist { cell, steps: 0 };
         for &hop in hops {
             if self.drive(&mut tourist, hop, maze) {
                 break;
             }
         }
-        if !tourist.goal_seen {
-            self.find_goal(planner, maze, &mut tourist);
-        }
-        if tourist.goal_seen && !hops.is_empty() {
+        if !hops.is_empty() {
             self.explore_on(planner, maze, &mut tourist);
         }
         let step_work = STEP_WORK + u64::from(self.grid.dimension().pow(2));
         let work = u64::from(tourist.steps + 1) * step_work;
         self.work_left = self.work_left.saturating_sub(work);
         let race = planner.known_steps(&self.knowledge.open);
-        tourist.steps + 1 + self.divisor * race.unwrap_or(LOST)
+        tourist.steps + 1 + self.divisor * race.expect("a way is known from the beginning")
     }
 
     /// One step; whether it brought news.
@@ -309,22 +264,7 @@ impl Imagination {
         let there = tourist.cell.toward(hop.heading, hop.cells);
         tourist.cell = there.expect("hops stay in the maze");
         tourist.steps += 1;
-        tourist.goal_seen |= self.goal.contains(tourist.cell);
         self.knowledge.look_around(tourist.cell, maze)
-    }
-
-    /// By the rule, which is asked again only where its way is blocked.
-    fn find_goal(&mut self, planner: &mut Planner, maze: &[u8], tourist: &mut Tourist) {
-        let mut hop = None;
-        while !tourist.goal_seen && tourist.steps < STEPS_MAX {
-            let Some(next) =
-                hop.or_else(|| planner.imagine_toward_goal(&self.knowledge, tourist.cell))
-            else {
-                return;
-            };
-            self.drive(tourist, next, maze);
-            hop = planner.on_toward_goal(&self.knowledge);
-        }
     }
 
     /// By the rule, which is asked again whenever there is news.

@@ -127,19 +127,4 @@ impl Knowledge {
         }
         news
     }
-
-    /// Whether an unknown wall can be seen from a cell.
-    pub fn sees_unknown(&self, cell: Cell) -> bool {
-        Heading::ALL.into_iter().any(|side| {
-            let mut at = self.grid.cell(cell);
-            loop {
-                let wall = self.grid.wall(at, side);
-                match self.known[wall] {
-                    Known::Closed => return false,
-                    Known::Unknown => return true,
-                    Known::Open => at = self.grid.beyond(at, side),
-                }
-            }
-        })
-    }
 }

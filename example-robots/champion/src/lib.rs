@@ -64,7 +64,7 @@ use wasmouse_sdk::{
 
 use belief::Belief;
 use ensemble::Ensemble;
-use imagination::{Imagination, Moment};
+use imagination::Imagination;
 use knowledge::{Knowledge, Known};
 use planner::{Plan, Planner};
 
@@ -141,6 +141,10 @@ impl Robot for Champion {
         let plan = self.decide(goal_seen);
         self.act(plan)
     }
+
+    fn map(&self) -> Option<&Map> {
+        Some(self.tracker.map())
+    }
 }
 
 impl Champion {
@@ -186,35 +190,29 @@ impl Champion {
             ensemble.weigh(&self.belief, news);
         }
         self.belief.learn(news, self.sweeps);
-        if let Some((ensemble, _)) = &mut self.depth {
+        if let Some((ensemble, imagination)) = &mut self.depth {
             ensemble.draw(&self.belief);
+            imagination.count_drawing();
         }
     }
 
     fn decide(&mut self, goal_seen: bool) -> Plan {
         let cell = self.tracker.cell();
         let open = self.tracker.map().passages(View::Pessimistic);
-        let (known, belief) = (self.belief.all_known(), &self.belief);
-        let Some((ensemble, imagination)) = &mut self.depth else {
-            let chance = |wall| belief.chance(wall);
-            self.knowledge.take(open, known, chance, &self.parameters);
-            if goal_seen {
-                return self.planner.explore(&self.knowledge, cell);
-            }
+        let (belief, ensemble) = (&self.belief, self.depth.as_ref().map(|it| &it.0));
+        let chance = |wall| ensemble.map_or_else(|| belief.chance(wall), |it| it.chance(wall));
+        let known = belief.all_known();
+        self.knowledge.take(open, known, chance, &self.parameters);
+        if !goal_seen {
             let hop = self.planner.toward_goal(&self.knowledge, cell);
             return hop.map_or(Plan::Look, Plan::Drive);
+        }
+        let Some((ensemble, imagination)) = &mut self.depth else {
+            return self.planner.explore(&self.knowledge, cell);
         };
-        let chance = |wall| ensemble.chance(wall);
-        self.knowledge.take(open, known, chance, &self.parameters);
-        let now = Moment {
-            knowledge: &self.knowledge,
-            cell,
-            goal_seen,
-        };
-        self.hops = imagination.decide(&mut self.planner, ensemble, &now);
+        self.hops = imagination.decide(&mut self.planner, ensemble, &self.knowledge, cell);
         self.hops.reverse();
-        let otherwise = if goal_seen { Plan::Stop } else { Plan::Look };
-        self.hops.pop().map_or(otherwise, Plan::Drive)
+        self.hops.pop().map_or(Plan::Stop, Plan::Drive)
     }
 
     fn act(&mut self, plan: Plan) -> Action {

@@ -8,8 +8,7 @@
 //! worth more than the steps to go and look.
 
 use wasmouse_sdk::{
-    Briefing, Cell, CellSet, Grid, GuidedSearch, Heading, Hop, IMPASSABLE, Passages, Search,
-    WeightedSearch,
+    Briefing, Cell, CellSet, Grid, GuidedSearch, Heading, Hop, Passages, Search, WeightedSearch,
 };
 
 use crate::knowledge::{Knowledge, Known, STEP};
@@ -52,11 +51,8 @@ pub struct Planner {
     parameters: Parameters,
     /// Under the costs on the way to the goal, and under those for better ways.
     weighted: [WeightedSearch; 2],
-    /// The same in imagined matches, led by those.
-    guided: [GuidedSearch; 2],
-    repair: WeightedSearch,
-    /// Costs for [`connect`](Self::connect).
-    repair_costs: Vec<u16>,
+    /// For better ways in imagined matches.
+    guided: GuidedSearch,
     search: Search,
 }
 
@@ -69,7 +65,6 @@ impl Planner {
         let grid = Grid::new(briefing.dimension);
         let longest = briefing.longest_move;
         let weighted = WeightedSearch::new(grid, longest, STEP);
-        let guided = GuidedSearch::new(grid, longest, STEP);
         Self {
             grid,
             start: briefing.start,
@@ -77,10 +72,8 @@ impl Planner {
             goal_numbers: briefing.goal.cells().map(|it| grid.cell(it)).collect(),
             divisor: briefing.exploration_divisor as f32,
             parameters,
-            weighted: std::array::from_fn(|_| weighted.clone()),
-            guided: std::array::from_fn(|_| guided.clone()),
-            repair: weighted,
-            repair_costs: Vec::new(),
+            weighted: [weighted.clone(), weighted],
+            guided: GuidedSearch::new(grid, longest, STEP),
             search: Search::new(briefing.dimension, longest),
         }
     }
@@ -155,85 +148,28 @@ impl Planner {
     }
 }
 
-/// For imagined matches: the same rules, thousands of times a decision.
+/// For imagined matches: the same rule, thousands of times a decision.
 impl Planner {
-    /// Searches the whole maze for imagined matches to go on from. Returns what the way
-    /// to the goal costs from each of these cells, in steps times [`STEP`]; `None`
-    /// where there is none.
-    pub fn begin(&mut self, knowledge: &Knowledge, cells: &[Cell]) -> Vec<Option<u32>> {
-        let costs = [&knowledge.goal_costs, &knowledge.way_costs];
-        for (search, costs) in self.weighted.iter_mut().zip(costs) {
-            search.run(costs, &self.goal_numbers, None);
-        }
-        let cost = |&cell: &Cell| self.weighted[TO_GOAL].cost(self.grid.cell(cell));
-        cells.iter().map(cost).collect()
+    /// Searches the whole maze for imagined matches to go on from.
+    pub fn begin(&mut self, knowledge: &Knowledge) {
+        let search = &mut self.weighted[BETTER];
+        search.run(&knowledge.way_costs, &self.goal_numbers, None);
     }
 
     /// Begins an imagined match.
     pub fn again(&mut self) {
-        for (search, guide) in self.guided.iter_mut().zip(&self.weighted) {
-            search.begin(guide);
-        }
+        self.guided.begin(&self.weighted[BETTER]);
     }
 
-    /// Like [`toward_goal`](Self::toward_goal).
-    pub fn imagine_toward_goal(&mut self, knowledge: &Knowledge, from: Cell) -> Option<Hop> {
-        let search = &mut self.guided[TO_GOAL];
-        search.run(&knowledge.goal_costs, self.grid.cell(from));
-        search.advance()
-    }
-
-    /// The next hop of the way that was found last; `None` when a wall on it is now
-    /// known to stand.
-    pub fn on_toward_goal(&mut self, knowledge: &Knowledge) -> Option<Hop> {
-        for (mut cell, hop) in self.guided[TO_GOAL].way() {
-            for _ in 0..hop.cells {
-                if knowledge.goal_costs[self.grid.wall(cell, hop.heading)] == IMPASSABLE {
-                    return None;
-                }
-                cell = self.grid.beyond(cell, hop.heading);
-            }
-        }
-        self.guided[TO_GOAL].advance()
-    }
-
-    /// Like [`explore`](Self::explore).
+    /// Like [`explore`](Self::explore), with the goal reached.
     pub fn imagine_explore(&mut self, knowledge: &Knowledge, from: Cell) -> Plan {
         let Some(known_steps) = self.known_steps(&knowledge.open) else {
-            let hop = self.imagine_toward_goal(knowledge, from);
-            return hop.map_or(Plan::Stop, Plan::Drive);
+            return Plan::Stop;
         };
         let start = self.grid.cell(self.start);
-        self.guided[BETTER].run(&knowledge.way_costs, start);
-        let question = Question::of(knowledge, self.guided[BETTER].way());
+        self.guided.run(&knowledge.way_costs, start);
+        let question = Question::of(knowledge, self.guided.way());
         self.weigh(knowledge, from, known_steps, &question)
-    }
-
-    /// Sees that an imagined maze, 1 by wall where it is open, has a way from start to
-    /// goal: opens the unknown walls that take the least surprise.
-    pub fn connect(&mut self, knowledge: &Knowledge, maze: &mut [u8]) {
-        let grid = self.grid;
-        let start = grid.cell(self.start);
-        let (search, costs) = (&mut self.repair, &mut self.repair_costs);
-        costs.clear();
-        costs.resize(grid.wall_count(), IMPASSABLE);
-        for wall in grid.inner_walls().filter(|&it| maze[it] == 1) {
-            costs[wall] = 0;
-        }
-        search.run(costs, &self.goal_numbers, Some(start));
-        if search.cost(start).is_some() {
-            return;
-        }
-        for wall in grid.inner_walls().filter(|&it| maze[it] == 0) {
-            costs[wall] = knowledge.goal_costs[wall];
-        }
-        search.run(costs, &self.goal_numbers, Some(start));
-        for (mut cell, hop) in search.way(start) {
-            for _ in 0..hop.cells {
-                maze[grid.wall(cell, hop.heading)] = 1;
-                cell = grid.beyond(cell, hop.heading);
-            }
-        }
     }
 }
 
