@@ -80,6 +80,12 @@ impl Ensemble {
         self.chances[wall]
     }
 
+    /// Whether the maze is more likely of a kind whose mazes are drawn as a whole than
+    /// one of which only patterns are known.
+    pub fn knows_kind(&self) -> bool {
+        self.kinds[PATTERNS].weight < 0.5
+    }
+
     /// How many mazes there are to imagine matches in.
     pub const fn sample_count(&self) -> usize {
         self.samples

@@ -29,9 +29,9 @@ fn contest_mazes() {
 #[test]
 fn contest_mazes_deep() {
     let expected = [
-        (1, "finished 89 + 18: 20.967"),
-        (2, "finished 121 + 22: 26.033"),
-        (3, "finished 128 + 25: 29.267"),
+        (1, "finished 58 + 18: 19.933"),
+        (2, "finished 108 + 22: 25.600"),
+        (3, "finished 64 + 28: 30.133"),
     ];
     let options = PlayOptions {
         setting: 1,

@@ -19,7 +19,7 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/champion.wasm"),
-        sha256: "02bee37037195be26792342fd56f5525f252a6a382fe389434a5ca4a3c2564e7",
+        sha256: "997d44a9824bb3340938a86261ac9675979fb6d38ca5df39ce7ba78ea2466ac2",
     },
     BundledRobot {
         name: "count-expansion",
