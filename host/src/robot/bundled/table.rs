@@ -15,7 +15,7 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             Setting {
                 value: 1,
                 name: "deep",
-                description: "Plays what it could do to the end in imagined mazes; takes seconds.",
+                description: "Also draws whole mazes that agree with what it saw, and in the goal plays what it could do next to the end in them; takes up to a second.",
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/champion.wasm"),
