@@ -16,6 +16,10 @@ use super::{Run, Target};
 /// Inputs that are mutated on, at most; older ones make room.
 const CORPUS_MAX: usize = 2048;
 
+/// Behaviours that are told apart, at most: a target has hundreds, and more are words of
+/// the inputs themselves.
+const BEHAVIOURS_MAX: usize = 1 << 16;
+
 /// Tries to make an input that fails smaller.
 const SMALLER_TRIES: u32 = 2000;
 
@@ -109,7 +113,7 @@ impl Fuzzer {
             Ok(behaviour) => {
                 let hash = hash_of(&behaviour);
                 self.summary.digest = self.summary.digest.rotate_left(5) ^ hash;
-                if self.seen.insert(hash) {
+                if self.seen.len() < BEHAVIOURS_MAX && self.seen.insert(hash) {
                     self.summary.behaviours += 1;
                     self.keep(input);
                 }
