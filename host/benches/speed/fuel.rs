@@ -95,7 +95,9 @@ fn mixes() -> Vec<Mix> {
         mix("square roots", "(local.set $d (f64.sqrt (local.get $d)))"),
         mix(
             "denormal products",
-            "(local.set $d (f64.mul (f64.const 0x0.8p-1022) (f64.const 0.75)))(local.set $d (f64.mul (local.get $d) (f64.const 0.75)))",
+            "(local.set $d (f64.mul
+                (f64.div (f64.const 0x1p-1040) (f64.add (local.get $d) (f64.const 0x1p-1030)))
+                (f64.const 0x1p-1022)))",
         ),
         mix(
             "minima of floats",
