@@ -2,9 +2,10 @@
 //!
 //! Fuel has to end a match after about the time that an organiser expects, whatever a
 //! robot does with it. Most operators take a fraction of a nanosecond and cost 1; those
-//! that take much longer cost about what they take in units of such operators, so that
-//! no kind of work gets much more time for its fuel than others.
-//! `cargo bench -p wasmouse -- fuel` measures each of them beside the flood robot.
+//! that take much longer cost about what they take in units of such operators. What is
+//! slow for reasons outside its instructions gets more time for its fuel all the same:
+//! memory in no cache, denormal floats, handles made and given back. `cargo bench -p
+//! wasmouse -- fuel` measures the kinds of work beside the flood robot.
 
 use wasmtime::OperatorCost;
 
