@@ -13,7 +13,6 @@
 //! | find cheapest paths under costs of your own | [`AStar`] |
 //! | search as simple robots do, by counting squares | [`Expansion`] |
 //! | find the cheapest ways when walls have costs | [`WeightedSearch`], [`Grid`] |
-//! | find one such way again and again, fast | [`GuidedSearch`] |
 //! | know that the best path is found | [`Certificate`] |
 //! | roll dice | [`Random`] |
 //! | tell the people who watch something | [`journal`] |
@@ -30,7 +29,6 @@ mod doubt;
 mod expansion;
 mod geometry;
 mod grid;
-mod guided;
 pub mod journal;
 mod map;
 mod passages;
@@ -52,7 +50,6 @@ pub use doubt::Doubt;
 pub use expansion::Expansion;
 pub use geometry::DIMENSION_MAX;
 pub use grid::Grid;
-pub use guided::GuidedSearch;
 pub use map::{Map, News, View, Wall};
 pub use passages::{CellSet, Passages};
 pub use pose::Pose;

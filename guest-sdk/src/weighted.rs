@@ -150,17 +150,6 @@ impl WeightedSearch {
         self.cost.fill(NOT_REACHED);
     }
 
-    /// Copies the costs of all cells; `u32::MAX` where there is no way.
-    pub(crate) fn copy_costs(&self, to: &mut [u32]) {
-        to.copy_from_slice(&self.cost);
-    }
-
-    /// How many buckets the last search needed, a power of two: no hop under its costs
-    /// costs as much.
-    pub(crate) const fn bucket_count(&self) -> usize {
-        self.buckets.len()
-    }
-
     #[inline]
     const fn bucket(&self, cost: u32) -> usize {
         cost as usize & (self.buckets.len() - 1)

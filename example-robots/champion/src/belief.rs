@@ -46,6 +46,8 @@ pub struct Belief {
     chances: Vec<f32>,
     samples: Vec<Sample>,
     experts: Vec<Expert>,
+    /// By kind of maze, how likely it is.
+    kinds: [f32; KINDS],
     /// The experts' common opinion: for each pattern, the chance of an open wall.
     opinion: [f32; 256],
     neighborhoods: Vec<[u16; 8]>,
@@ -103,6 +105,7 @@ impl Belief {
             chances: vec![0.5; grid.wall_count()],
             samples: Vec::new(),
             experts: experts(),
+            kinds: [1.0 / KINDS as f32; KINDS],
             opinion: [0.5; 256],
             neighborhoods,
             places,
@@ -133,19 +136,14 @@ impl Belief {
         &self.known
     }
 
-    /// The walls that have not been seen.
-    pub fn unknown(&self) -> &[u16] {
-        &self.unknown
-    }
-
-    /// What is believed about the goal room.
-    pub const fn room(&self) -> &Room {
-        &self.room
-    }
-
     /// The sampled mazes: by wall, 1 where it is open.
-    pub fn samples(&self) -> impl ExactSizeIterator<Item = &[u8]> {
+    pub fn mazes(&self) -> impl Iterator<Item = &[u8]> {
         self.samples.iter().map(|it| &it.open[..])
+    }
+
+    /// How likely it is that the maze is of each kind, in the order of the tables.
+    pub const fn kinds(&self) -> [f32; KINDS] {
+        self.kinds
     }
 
     /// Takes in walls that were seen for the first time, and thinks about the others.
@@ -191,14 +189,17 @@ impl Belief {
         let most = most.fold(f32::MIN, f32::max);
         let mut total = 0.0;
         self.opinion = [0.0; 256];
-        for expert in &self.experts {
+        self.kinds = [0.0; KINDS];
+        for (index, expert) in self.experts.iter().enumerate() {
             let weight = exp(expert.evidence - most);
             total += weight;
+            self.kinds[index / SHIFTS.len()] += weight;
             for (sum, chance) in self.opinion.iter_mut().zip(&expert.opinion) {
                 *sum += weight * chance;
             }
         }
         self.opinion.iter_mut().for_each(|it| *it /= total);
+        self.kinds.iter_mut().for_each(|it| *it /= total);
     }
 
     /// Redraws every unknown wall of every sample, and renews the chances.

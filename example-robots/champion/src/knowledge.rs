@@ -1,12 +1,11 @@
 //! What a plan is made from: [`Knowledge`].
 //!
-//! The belief's chances turned into costs, once a decision; then a plain value that
-//! an imagined match can copy and go on with, walking through an imagined maze.
+//! Once a decision, the belief's chances are turned into costs.
 
-use wasmouse_sdk::{Cell, Grid, Heading, IMPASSABLE, Passages};
+use wasmouse_sdk::{Grid, IMPASSABLE, Passages};
 
 use crate::numbers::ln;
-use crate::planner::Parameters;
+use crate::tuning::Parameters;
 
 /// What a step costs in the weighted searches; walls cost in the same unit.
 pub const STEP: u16 = 32;
@@ -29,7 +28,6 @@ pub enum Known {
 }
 
 /// Walls seen so far, and what the others cost.
-#[derive(Clone)]
 pub struct Knowledge {
     /// Numbers of cells and walls.
     pub grid: Grid,
@@ -78,53 +76,17 @@ impl Knowledge {
                 Known::Unknown => {
                     let surprise = -ln(chance(wall).clamp(CHANCE_MIN, 1.0));
                     self.surprise[wall] = surprise;
-                    [parameters.goal_caution, parameters.way_caution].map(|caution| {
-                        let cost = caution * f32::from(STEP) * surprise + 0.5;
+                    [
+                        parameters.goal_price + parameters.goal_caution * surprise,
+                        parameters.way_caution * surprise,
+                    ]
+                    .map(|steps| {
+                        let cost = steps * f32::from(STEP) + 0.5;
                         cost.min(WALL_COST_MAX) as u16
                     })
                 }
             };
             [self.goal_costs[wall], self.way_costs[wall]] = costs;
         }
-    }
-
-    /// Copies another one of the same dimension, without allocating.
-    pub fn copy(&mut self, other: &Self) {
-        self.known.copy_from_slice(&other.known);
-        self.open.clone_from(&other.open);
-        self.goal_costs.copy_from_slice(&other.goal_costs);
-        self.way_costs.copy_from_slice(&other.way_costs);
-        self.surprise.copy_from_slice(&other.surprise);
-    }
-
-    /// Sees what can be seen from a cell of an imagined maze, by wall 1 where it is
-    /// open. Returns whether anything was new.
-    pub fn look_around(&mut self, cell: Cell, maze: &[u8]) -> bool {
-        let mut news = false;
-        for side in Heading::ALL {
-            let mut at = self.grid.cell(cell);
-            loop {
-                let wall = self.grid.wall(at, side);
-                match self.known[wall] {
-                    Known::Closed => break,
-                    Known::Open => {}
-                    Known::Unknown => {
-                        news = true;
-                        if maze[wall] == 0 {
-                            self.known[wall] = Known::Closed;
-                            self.goal_costs[wall] = IMPASSABLE;
-                            self.way_costs[wall] = IMPASSABLE;
-                            break;
-                        }
-                        self.known[wall] = Known::Open;
-                        self.goal_costs[wall] = 0;
-                        self.way_costs[wall] = 0;
-                        self.open.open(self.grid.at(at), side);
-                    }
-                }
-                at = self.grid.beyond(at, side);
-            }
-        }
-        news
     }
 }

@@ -1,34 +1,25 @@
 //! The rules by which the robot decides: [`Planner`].
 //!
-//! An unknown wall is worth a detour, the more the likelier it stands: on the way to
-//! the goal it costs some steps times -ln of the chance that it is open. Once the
-//! goal has been reached, the robot knows a way, and looks for the cheapest way from
-//! the start under such costs. It goes on exploring as long as the steps which that
-//! way would save in the race, times a power of the chance that the way exists, are
-//! worth more than the steps to go and look.
+//! On the way to the goal an unknown wall costs some steps, a little more when it is
+//! likely to stand; the robot takes the cheapest way. Once the goal has been reached,
+//! it knows a way, and asks questions: does this shorter one exist? The answer is worth
+//! the steps saved in the race, times the chance that the way exists; it costs the steps
+//! to go and look. The robot goes for the question that promises most for each step, until
+//! none promises enough. Its questions are the cheapest ways under several costs of
+//! unlikely walls, and the shortest ways in the sampled mazes of the belief.
 
 use wasmouse_sdk::{
-    Briefing, Cell, CellSet, Grid, GuidedSearch, Heading, Hop, Passages, Search, WeightedSearch,
+    Briefing, Cell, CellSet, Grid, Heading, Hop, IMPASSABLE, Passages, Pose, Search, WeightedSearch,
 };
 
+use crate::faith::Faith;
 use crate::knowledge::{Knowledge, Known, STEP};
 use crate::numbers::exp;
+use crate::tuning::Parameters;
 
-/// The scalars that decide between driving, exploring and resetting.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parameters {
-    /// What an unknown wall costs on the way to the goal. Unit: steps for each unit
-    /// of -ln of the chance that it is open.
-    pub goal_caution: f32,
-    /// The same for the way from start to goal that is looked for afterwards.
-    pub way_caution: f32,
-    /// The power of the chance that this way exists.
-    pub doubt: f32,
-    /// How much more than the cost of looking the gain has to be.
-    pub reluctance: f32,
-    /// Steps that looking costs besides the way to the first wall.
-    pub overhead: f32,
-}
+/// What the costs of unlikely walls are multiplied by: for bold questions and timid
+/// ones.
+const CAUTIONS: [f32; 5] = [1.0, 0.4, 0.65, 1.6, 2.6];
 
 /// What to do next.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,38 +34,38 @@ pub enum Plan {
 
 /// Searches with their buffers.
 pub struct Planner {
-    grid: Grid,
     start: Cell,
+    grid: Grid,
     goal: CellSet,
     goal_numbers: Vec<usize>,
     divisor: f32,
-    parameters: Parameters,
-    /// Under the costs on the way to the goal, and under those for better ways.
-    weighted: [WeightedSearch; 2],
-    /// For better ways in imagined matches.
-    guided: GuidedSearch,
+    weighted: WeightedSearch,
     search: Search,
+    /// A sampled maze, and the search in it.
+    passages: Passages,
+    shortest: Search,
+    /// What the walls cost under one of the [`CAUTIONS`].
+    costs: Vec<u16>,
+    faith: Faith,
 }
-
-const TO_GOAL: usize = 0;
-const BETTER: usize = 1;
 
 impl Planner {
     /// A planner for a match.
-    pub fn new(briefing: &Briefing, parameters: Parameters) -> Self {
+    pub fn new(briefing: &Briefing) -> Self {
         let grid = Grid::new(briefing.dimension);
         let longest = briefing.longest_move;
-        let weighted = WeightedSearch::new(grid, longest, STEP);
         Self {
-            grid,
             start: briefing.start,
+            grid,
             goal: CellSet::from(briefing.goal),
             goal_numbers: briefing.goal.cells().map(|it| grid.cell(it)).collect(),
             divisor: briefing.exploration_divisor as f32,
-            parameters,
-            weighted: [weighted.clone(), weighted],
-            guided: GuidedSearch::new(grid, longest, STEP),
+            weighted: WeightedSearch::new(grid, longest, STEP),
             search: Search::new(briefing.dimension, longest),
+            passages: Passages::all_closed(briefing.dimension),
+            shortest: Search::new(briefing.dimension, longest),
+            costs: vec![IMPASSABLE; grid.wall_count()],
+            faith: Faith::default(),
         }
     }
 
@@ -82,9 +73,9 @@ impl Planner {
     /// unknown; `None` when the goal is walled in.
     pub fn toward_goal(&mut self, knowledge: &Knowledge, from: Cell) -> Option<Hop> {
         let from = self.grid.cell(from);
-        let search = &mut self.weighted[TO_GOAL];
-        search.run(&knowledge.goal_costs, &self.goal_numbers, Some(from));
-        search.hop(from)
+        self.weighted
+            .run(&knowledge.goal_costs, &self.goal_numbers, Some(from));
+        self.weighted.hop(from)
     }
 
     /// The next hop of a shortest known way to the goal.
@@ -93,122 +84,144 @@ impl Planner {
         self.search.hops(open, from).next()
     }
 
-    /// What to do once the goal has been reached.
-    pub fn explore(&mut self, knowledge: &Knowledge, from: Cell) -> Plan {
-        let Some(known_steps) = self.known_steps(&knowledge.open) else {
+    /// What to do once the goal has been reached. `mazes` may be the real one: by wall,
+    /// 1 where it is open.
+    pub fn explore<'a>(
+        &mut self,
+        knowledge: &Knowledge,
+        mazes: impl Iterator<Item = &'a [u8]>,
+        from: Cell,
+        parameters: &Parameters,
+    ) -> Plan {
+        let open = &knowledge.open;
+        self.search.fill_until(open, &self.goal, self.start);
+        let Some(known_steps) = self.search.steps(self.start) else {
             let hop = self.toward_goal(knowledge, from);
             return hop.map_or(Plan::Stop, Plan::Drive);
         };
+        self.faith.hear(known_steps, &knowledge.known);
+        self.search.fill(open, &CellSet::from(from));
+        let mut choice = Choice {
+            parameters,
+            known_steps,
+            worth_of_step: self.divisor * self.faith.factor(parameters.faith_prior),
+            distances: &self.search,
+            best: None,
+        };
         let start = self.grid.cell(self.start);
-        let search = &mut self.weighted[BETTER];
-        search.run(&knowledge.way_costs, &self.goal_numbers, Some(start));
-        let question = Question::of(knowledge, self.weighted[BETTER].way(start));
-        self.weigh(knowledge, from, known_steps, &question)
-    }
-
-    /// Steps of the race through walls known to be open.
-    pub fn known_steps(&mut self, open: &Passages) -> Option<u32> {
-        self.search.fill_until(open, &self.goal, self.start);
-        self.search.steps(self.start)
-    }
-
-    /// Whether a question is worth an answer, and where to go for it.
-    fn weigh(
-        &mut self,
-        knowledge: &Knowledge,
-        from: Cell,
-        known_steps: u32,
-        question: &Question,
-    ) -> Plan {
-        if question.steps >= known_steps || question.vantages.is_empty() {
-            return Plan::Stop;
+        for caution in CAUTIONS {
+            for (cost, &wall) in self.costs.iter_mut().zip(&knowledge.way_costs) {
+                *cost = match wall {
+                    IMPASSABLE => IMPASSABLE,
+                    _ => (f32::from(wall) * caution) as u16,
+                };
+            }
+            self.weighted
+                .run(&self.costs, &self.goal_numbers, Some(start));
+            choice.consider(knowledge, self.weighted.way(start));
         }
-        let open = &knowledge.open;
+        for maze in mazes {
+            set_passages(&mut self.passages, self.grid, maze);
+            self.shortest
+                .fill_until(&self.passages, &self.goal, self.start);
+            let at = Pose::at_start(self.start);
+            let mut cell = start;
+            let way = self.shortest.route(&self.passages, at).map(|hop| {
+                let from = cell;
+                for _ in 0..hop.cells {
+                    cell = self.grid.beyond(cell, hop.heading);
+                }
+                (from, hop)
+            });
+            choice.consider(knowledge, way);
+        }
+        let Some((_, question)) = choice.best else {
+            return Plan::Stop;
+        };
+        self.faith.ask(question.chance, known_steps, question.walls);
         self.search.fill_until(open, &question.vantages, from);
-        let Some(steps) = self.search.steps(from) else {
-            return Plan::Stop;
+        let hop = self.search.hops(open, from).next();
+        hop.map_or(Plan::Look, Plan::Drive)
+    }
+}
+
+/// Looks for the question that promises most.
+struct Choice<'a> {
+    parameters: &'a Parameters,
+    /// Of the known way.
+    known_steps: u32,
+    /// Steps of exploring that a saved step of the race is worth.
+    worth_of_step: f32,
+    /// Filled with the steps from where the robot stands.
+    distances: &'a Search,
+    /// With what it promises.
+    best: Option<(f32, Question)>,
+}
+
+impl Choice<'_> {
+    /// Asks whether a way exists, if that promises enough and more than all before.
+    fn consider(&mut self, knowledge: &Knowledge, way: impl Iterator<Item = (usize, Hop)>) {
+        let question = Question::of(knowledge, way, self.parameters.doubt);
+        let vantages = question.vantages.iter();
+        let nearest = vantages.filter_map(|it| self.distances.steps(it)).min();
+        let (Some(nearest), Some(saved @ 1..)) =
+            (nearest, self.known_steps.checked_sub(question.steps))
+        else {
+            return;
         };
-        let Parameters {
-            doubt,
-            reluctance,
-            overhead,
-            ..
-        } = self.parameters;
-        let gain = (known_steps - question.steps) as f32 * exp(-doubt * question.surprise);
-        if gain <= reluctance * (steps as f32 + overhead) / self.divisor {
-            return Plan::Stop;
+        let gain = self.worth_of_step * saved as f32 * question.chance;
+        let promise = gain / (nearest as f32 + self.parameters.overhead);
+        let least = self
+            .best
+            .as_ref()
+            .map_or(self.parameters.reluctance, |it| it.0);
+        if promise > least {
+            self.best = Some((promise, question));
         }
-        self.go_on(open, from).map_or(Plan::Look, Plan::Drive)
-    }
-
-    /// The next hop to where the last plan of exploring leads; `None` when it has
-    /// arrived.
-    pub fn go_on(&self, open: &Passages, from: Cell) -> Option<Hop> {
-        self.search.hops(open, from).next()
     }
 }
 
-/// For imagined matches: the same rule, thousands of times a decision.
-impl Planner {
-    /// Searches the whole maze for imagined matches to go on from.
-    pub fn begin(&mut self, knowledge: &Knowledge) {
-        let search = &mut self.weighted[BETTER];
-        search.run(&knowledge.way_costs, &self.goal_numbers, None);
-    }
-
-    /// Begins an imagined match.
-    pub fn again(&mut self) {
-        self.guided.begin(&self.weighted[BETTER]);
-    }
-
-    /// Like [`explore`](Self::explore), with the goal reached.
-    pub fn imagine_explore(&mut self, knowledge: &Knowledge, from: Cell) -> Plan {
-        let Some(known_steps) = self.known_steps(&knowledge.open) else {
-            return Plan::Stop;
-        };
-        let start = self.grid.cell(self.start);
-        self.guided.run(&knowledge.way_costs, start);
-        let question = Question::of(knowledge, self.guided.way());
-        self.weigh(knowledge, from, known_steps, &question)
-    }
-}
-
-/// A way that may exist.
+/// A way from start to goal that may exist.
 struct Question {
     steps: u32,
-    /// The sum of -ln of the chances of its unknown walls.
-    surprise: f32,
+    /// How likely it is taken to exist.
+    chance: f32,
+    /// Its unknown walls.
+    walls: Vec<usize>,
     /// Cells from which one of these walls is seen.
     vantages: CellSet,
 }
 
 impl Question {
-    fn of(knowledge: &Knowledge, way: impl Iterator<Item = (usize, Hop)>) -> Self {
+    fn of(knowledge: &Knowledge, way: impl Iterator<Item = (usize, Hop)>, doubt: f32) -> Self {
         let grid = knowledge.grid;
-        let mut question = Self {
-            steps: 0,
-            surprise: 0.0,
-            vantages: CellSet::new(),
-        };
+        let (mut steps, mut surprise) = (0, 0.0);
+        let (mut walls, mut vantages) = (Vec::new(), CellSet::new());
         for (mut cell, hop) in way {
-            question.steps += 1;
+            steps += 1;
             for _ in 0..hop.cells {
                 let wall = grid.wall(cell, hop.heading);
                 if knowledge.known[wall] == Known::Unknown {
-                    question.surprise += knowledge.surprise[wall];
-                    add_vantages(knowledge, cell, hop.heading, &mut question.vantages);
+                    surprise += knowledge.surprise[wall];
+                    walls.push(wall);
+                    add_vantages(knowledge, cell, hop.heading, &mut vantages);
                 }
                 cell = grid.beyond(cell, hop.heading);
             }
         }
-        question
+        Self {
+            steps,
+            chance: exp(-doubt * surprise),
+            walls,
+            vantages,
+        }
     }
 }
 
 /// Adds the cells from which the unknown wall on that side of `cell` is seen: the
 /// cells on both sides of it, and those behind them as far as the view is known to be
 /// free.
-pub fn add_vantages(knowledge: &Knowledge, cell: usize, side: Heading, vantages: &mut CellSet) {
+fn add_vantages(knowledge: &Knowledge, cell: usize, side: Heading, vantages: &mut CellSet) {
     let grid = knowledge.grid;
     let ends = [(cell, side.opposite()), (grid.beyond(cell, side), side)];
     for (mut cell, away) in ends {
@@ -217,5 +230,80 @@ pub fn add_vantages(knowledge: &Knowledge, cell: usize, side: Heading, vantages:
             cell = grid.beyond(cell, away);
             vantages.insert(grid.at(cell));
         }
+    }
+}
+
+/// Opens the walls of a maze that are 1, and closes the others.
+fn set_passages(passages: &mut Passages, grid: Grid, open: &[u8]) {
+    *passages = Passages::all_closed(grid.dimension());
+    for wall in grid.inner_walls().filter(|&it| open[it] == 1) {
+        let [first, second] = grid.sides(wall);
+        let side = if second == first + 1 {
+            Heading::Right
+        } else {
+            Heading::Up
+        };
+        passages.open(grid.at(first), side);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parameters::SCALARS;
+    use wasmouse_sdk::Area;
+
+    /// A known way around three sides of a square, and what lies across it unknown.
+    fn plan(chance: f32, mazes: &[Vec<u8>]) -> Plan {
+        let goal = Cell::new(4, 0);
+        let briefing = Briefing {
+            goal: Area::new(goal, 1, 1),
+            ..Briefing::contest(6)
+        };
+        let grid = Grid::new(6);
+        let mut open = Passages::all_closed(6);
+        let mut known = vec![Known::Closed; grid.wall_count()];
+        for line in 0..4 {
+            for (cell, side) in [
+                (Cell::new(0, line), Heading::Up),
+                (Cell::new(line, 4), Heading::Right),
+                (Cell::new(4, line), Heading::Up),
+            ] {
+                open.open(cell, side);
+                known[grid.wall(grid.cell(cell), side)] = Known::Open;
+            }
+        }
+        for wall in across(grid) {
+            known[wall] = Known::Unknown;
+        }
+        let mut knowledge = Knowledge::new(6);
+        knowledge.take(&open, &known, |_| chance, &SCALARS[0]);
+        let mut planner = Planner::new(&briefing);
+        let mazes = mazes.iter().map(|it| &it[..]);
+        planner.explore(&knowledge, mazes, goal, &SCALARS[0])
+    }
+
+    fn across(grid: Grid) -> impl Iterator<Item = usize> {
+        (0..4).map(move |x| grid.wall(grid.cell(Cell::new(x, 2)), Heading::Right))
+    }
+
+    #[test]
+    fn goes_and_looks_when_it_pays() {
+        let nearest = Plan::Drive(Hop {
+            heading: Heading::Up,
+            cells: 2,
+        });
+        assert_eq!(plan(0.98, &[]), nearest);
+        assert_eq!(plan(0.05, &[]), Plan::Stop);
+    }
+
+    /// What is unlikely by its patterns is asked no more often because a maze has it.
+    #[test]
+    fn a_sampled_maze_asks_but_does_not_answer() {
+        let grid = Grid::new(6);
+        let mut maze = vec![1; grid.wall_count()];
+        assert_eq!(plan(0.05, &[maze.clone()]), Plan::Stop);
+        maze.fill(0);
+        assert!(matches!(plan(0.98, &[maze]), Plan::Drive(_)));
     }
 }

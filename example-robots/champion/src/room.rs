@@ -3,7 +3,7 @@
 //! The goal room of a contest maze stands in the centre, is open inside and has one
 //! entrance. That is believed until the maze contradicts it.
 
-use wasmouse_sdk::{Area, Briefing, Grid, Heading, Random};
+use wasmouse_sdk::{Area, Briefing, Grid, Heading};
 
 use crate::knowledge::Known;
 
@@ -85,24 +85,5 @@ impl Room {
         self.believed = count(&self.inside, Known::Closed) == 0
             && count(&self.entrances, Known::Open) <= 1
             && count(&self.entrances, Known::Closed) < self.entrances.len();
-    }
-
-    /// Sets its unknown walls in a maze, 1 by wall where it is open: any of those not
-    /// seen closed is the entrance, unless that is known. Nothing while not believed.
-    pub fn draw(&self, known: &[Known], random: &mut Random, maze: &mut [u8]) {
-        if !self.believed {
-            return;
-        }
-        for &wall in &self.inside {
-            maze[usize::from(wall)] = 1;
-        }
-        let is = |what| move |&&wall: &&u16| known[usize::from(wall)] == what;
-        let found = self.entrances.iter().any(|wall| is(Known::Open)(&wall));
-        let unknown = || self.entrances.iter().filter(is(Known::Unknown));
-        let count = unknown().count() as u32;
-        let entrance = (!found && count > 0).then(|| random.below(count) as usize);
-        for (place, &wall) in unknown().enumerate() {
-            maze[usize::from(wall)] = u8::from(entrance == Some(place));
-        }
     }
 }

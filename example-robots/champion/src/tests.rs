@@ -13,9 +13,9 @@ fn check(maze: &str, options: &PlayOptions, expected: &str) {
 #[test]
 fn contest_mazes() {
     let expected = [
-        (1, "finished 56 + 20: 21.867"),
-        (2, "finished 106 + 23: 26.533"),
-        (3, "finished 85 + 28: 30.833"),
+        (1, "finished 92 + 17: 20.067"),
+        (2, "finished 111 + 22: 25.700"),
+        (3, "finished 121 + 27: 31.033"),
     ];
     let mazes = contest_mazes::contest_mazes();
     for (number, expected) in expected {
@@ -29,9 +29,9 @@ fn contest_mazes() {
 #[test]
 fn contest_mazes_deep() {
     let expected = [
-        (1, "finished 58 + 18: 19.933"),
-        (2, "finished 108 + 22: 25.600"),
-        (3, "finished 64 + 28: 30.133"),
+        (1, "finished 89 + 17: 19.967"),
+        (2, "finished 126 + 23: 27.200"),
+        (3, "finished 99 + 27: 30.300"),
     ];
     let options = PlayOptions {
         setting: 1,

@@ -5,7 +5,6 @@
 //! [`crate::report::reference`].
 
 mod mazes;
-mod sample;
 
 use std::fs::{self, File};
 use std::io::Read as _;
@@ -31,10 +30,9 @@ const LONG_HELP: &str = "\
 Mazes: the official ones, of which wasmouse comes with maze 01 alone; 100 of
 each size from 12 to 20 from each of the four generators, with the seeds
 500001 to 500100; and those of competitions, by the number of entrances to
-their goal. A slow robot, `champion:deep`, plays 10 of each size and generator.
-The page says so, and also where mazes were absent. The same version writes
-the same bytes on any number of threads. A page that is there already is
-replaced if an earlier study wrote it.
+their goal. The page says where mazes were absent. The same version writes the
+same bytes on any number of threads. A page that is there already is replaced
+if an earlier study wrote it.
 
 Examples:
   wasmouse study --official udacity --competition contests
@@ -92,7 +90,8 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     };
     let threads = args.setup.threads();
     let competitors: Vec<Competitor> = specifications.iter().map(competitor).collect();
-    let (played, mut exit) = sample::play(&contest, &groups, &competitors, &referee, threads)?;
+    let played = run::play(&contest, &referee, threads)?;
+    let mut exit = run::exit(&contest, &played);
     let mut tries = None;
     if is_whole(exit)
         && let Some(contest) = args.tries(&specifications, &contest, &referee)?

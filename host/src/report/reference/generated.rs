@@ -50,8 +50,8 @@ fn reading(page: &Reference<'_>) -> String {
     format!(
         "## Generated mazes\n\n\
          {each} mazes of each of the sizes {}, from each of {} generators. Robots are ordered by\n\
-         the share of mazes that they finished, then by mean regret. All averages are over the\n\
-         finished mazes alone.{}\n\n\
+         the number of mazes that they finished, then by mean regret. All averages are over the\n\
+         finished mazes alone.\n\n\
          - **finished**: mazes in which the robot reached the goal in run 2.\n\
          - **optimal**: the share of those with a run 2 as short as the maze allows.\n\
          - **score**: the mean score.\n\
@@ -69,29 +69,9 @@ fn reading(page: &Reference<'_>) -> String {
          official mazes take 23 as the optimum of both maze 02 and maze 03, which is 22 and 25.\n",
         sizes.join(", "),
         page.study.groups.len(),
-        sampled(page),
         page.contest().rules.exploration_divisor,
         benchmarks.finish()
     )
-}
-
-/// Says who played fewer mazes than there are.
-fn sampled(page: &Reference<'_>) -> String {
-    let groups = page.study.groups;
-    let count: usize = groups.iter().map(|it| it.mazes.len()).sum();
-    let mut text = String::new();
-    for (entrant, competitor) in page.competitors.iter().enumerate() {
-        let played = page.study.of_entrant(entrant).count();
-        if played > 0 && played < count {
-            text += &format!(
-                "\n\n**{} takes long for a match and played a sample of {} mazes, the first of\n\
-                 each size and generator; its averages are over other mazes than those of the others.**",
-                competitor.label(),
-                grouped(played as u64)
-            );
-        }
-    }
-    text
 }
 
 fn family(page: &Reference<'_>, group: &Group) -> String {
@@ -201,9 +181,7 @@ pub(super) fn ranking(page: &Reference<'_>, tally: impl Fn(usize) -> Tally) -> V
         .filter(|(tally, _)| tally.matches > 0)
         .map(|(tally, entrant)| {
             let regret = tally.regret.map(|regret| regret.total);
-            // By share, because slow robots play a sample.
-            let share = u64::from(tally.finished) * 1_000_000 / u64::from(tally.matches);
-            (Reverse(share), regret, entrant)
+            (Reverse(tally.finished), regret, entrant)
         })
         .collect();
     ranked.sort();
