@@ -7,11 +7,12 @@
 //! Counts, for each kind of maze that `training.toml` names, how often a wall is open
 //! under each of the 256 patterns of its neighbours, in mazes that the `wasmouse`
 //! binary generates (`$WASMOUSE`, else `target/debug/wasmouse`). The scalars stay as
-//! they are; `tune` goes on from them and changes those of one kind after the other, each
-//! scalar up and down in turn, and keeps a change that makes the mean regret of `fast` in
-//! the tuning mazes of that kind smaller (coordinate search; Hooke and Jeeves, *Direct
-//! Search Solution of Numerical and Statistical Problems*, 1961). It takes some ten
-//! minutes. The same seeds give the same file, byte for byte.
+//! they are; `tune` searches for them anew. From the start that `training.toml` gives, it
+//! changes those of one kind after the other, each scalar up and down in turn, and keeps a
+//! change that makes the mean regret of `fast` in the tuning mazes of that kind smaller
+//! (coordinate search; Hooke and Jeeves, *Direct Search Solution of Numerical and
+//! Statistical Problems*, 1961). It takes some twenty minutes on two cores. The same seeds
+//! give the same file, byte for byte.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -19,7 +20,7 @@ use std::process::Command;
 use robot_champion::parameters::{KINDS, SCALARS};
 use robot_champion::{Champion, Parameters};
 use serde::Deserialize;
-use wasmouse_sdk::testing::{self, PlayOptions};
+use wasmouse_sdk::testing::{self, PlayOptions, Score};
 use wasmouse_sdk::{
     Action, Area, Briefing, Cell, CellSet, Grid, Heading, Passages, Robot, Search, Sensors,
 };
@@ -27,7 +28,7 @@ use wasmouse_sdk::{
 #[derive(Deserialize)]
 struct Training {
     patterns: Patterns,
-    tuning: Set,
+    tuning: Tuning,
 }
 
 #[derive(Deserialize)]
@@ -35,6 +36,13 @@ struct Patterns {
     #[serde(flatten)]
     set: Set,
     smoothing: f64,
+}
+
+#[derive(Deserialize)]
+struct Tuning {
+    #[serde(flatten)]
+    set: Set,
+    start: [[f32; Parameters::COUNT]; KINDS],
 }
 
 #[derive(Deserialize)]
@@ -51,7 +59,7 @@ fn main() {
     let training: Training = toml::from_str(&text).expect("training.toml has the tables");
     let Patterns { set, smoothing } = &training.patterns;
     assert_eq!(
-        training.tuning.kinds, set.kinds,
+        training.tuning.set.kinds, set.kinds,
         "scalars go with the tables"
     );
     let scalars = match std::env::args().nth(1).as_deref() {
@@ -226,8 +234,8 @@ const FACTORS: [f32; 2] = [1.25, 0.8];
 const GAIN_MIN: f64 = 0.001;
 
 /// The scalars of each kind after the search.
-fn tune(set: &Set) -> [Parameters; KINDS] {
-    let mut best = SCALARS;
+fn tune(Tuning { set, start }: &Tuning) -> [Parameters; KINDS] {
+    let mut best = start.map(Parameters::from_array);
     for (index, kind) in set.kinds.iter().enumerate() {
         let mazes = set.mazes(kind);
         let mut least = mean_regret(&mazes, &best);
@@ -259,34 +267,36 @@ fn tune(set: &Set) -> [Parameters; KINDS] {
 fn mean_regret(mazes: &[String], parameters: &[Parameters; KINDS]) -> f64 {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let part = mazes.len().div_ceil(threads);
-    let sum: f64 = std::thread::scope(|scope| {
+    // Whole numbers: their sum is the same on any number of threads.
+    let sum: i64 = std::thread::scope(|scope| {
         let parts: Vec<_> = mazes
             .chunks(part)
             .map(|mazes| {
                 scope.spawn(|| {
                     TRIED.set(*parameters);
-                    mazes.iter().map(|it| regret(it)).sum::<f64>()
+                    mazes.iter().map(|it| regret(it)).sum::<i64>()
                 })
             })
             .collect();
         let sums = parts.into_iter().map(|it| it.join().expect("no panic"));
         sums.sum()
     });
-    sum / mazes.len() as f64
+    sum as f64 / 1000.0 / mazes.len() as f64
 }
 
-fn regret(maze: &str) -> f64 {
+/// Score minus the score of a robot that knows the maze, in thousandths of a step.
+fn regret(maze: &str) -> i64 {
     let played = testing::play::<Tuned>(maze, &PlayOptions::default());
     let score = played.score.expect("the champion finishes");
-    score.thousandths() as f64 / 1000.0 - floor(maze)
+    score.thousandths() as i64 - floor(maze).thousandths() as i64
 }
 
 /// The score of a robot that knows the maze.
-fn floor(maze: &str) -> f64 {
+fn floor(maze: &str) -> Score {
     let passages = passages(maze);
     let goal = CellSet::from(Area::center(passages.dimension()));
     let mut search = Search::new(passages.dimension(), 3);
     search.fill(&passages, &goal);
     let optimum = search.steps(Cell::new(0, 0)).expect("a legal maze");
-    f64::from(optimum) + f64::from(optimum + 1) / 30.0
+    Score::new(optimum + 1, optimum, 30)
 }
