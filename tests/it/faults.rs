@@ -109,6 +109,17 @@ impl Dice {
     }
 }
 
+/// The next workers of a contest; none when there are none for a while, because it ends.
+fn workers_met(program: &Program, contest: &Child) -> Vec<u32> {
+    let mut looks = (0..100).map(|_| {
+        thread::sleep(Duration::from_millis(1));
+        let mut workers = program.processes();
+        workers.retain(|process| *process != contest.id());
+        workers
+    });
+    looks.find(|it| !it.is_empty()).unwrap_or_default()
+}
+
 /// Ends a worker, whichever it meets, at any time of a contest.
 fn kill_workers(rounds: u64) {
     let program = program();
@@ -124,11 +135,7 @@ fn kill_workers(rounds: u64) {
         };
         let child = started(&mut contest(&program, &cache));
         thread::sleep(dice.part(time));
-        let workers: Vec<u32> = program
-            .processes()
-            .into_iter()
-            .filter(|process| *process != child.id())
-            .collect();
+        let workers = workers_met(&program, &child);
         if !workers.is_empty() {
             let which = dice.below(workers.len() as u64);
             signal(workers[usize::try_from(which).expect("a few")], "KILL");
