@@ -51,8 +51,8 @@ pub struct Belief {
     /// The experts' common opinion: for each pattern, the chance of an open wall.
     opinion: [f32; 256],
     neighborhoods: Vec<[u16; 8]>,
-    /// In which place of each neighbour's neighbourhood a wall stands.
-    places: Vec<[u8; 8]>,
+    /// The bit of a wall in the pattern of each of its neighbours.
+    bits: Vec<[u8; 8]>,
     room: Room,
     random: Random,
 }
@@ -89,14 +89,14 @@ impl Belief {
             }
         }
         let mut neighborhoods = vec![[0; 8]; grid.wall_count()];
-        let mut places = vec![[0; 8]; grid.wall_count()];
+        let mut bits = vec![[0; 8]; grid.wall_count()];
         for wall in grid.inner_walls() {
             known[wall] = Known::Unknown;
             let around = grid.neighborhood(wall);
             neighborhoods[wall] = around.map(|it| it as u16);
-            places[wall] = around.map(|other| {
+            bits[wall] = around.map(|other| {
                 let back = grid.neighborhood(other).iter().position(|&it| it == wall);
-                back.expect("neighbourhood is mutual") as u8
+                1 << back.expect("neighbourhood is mutual")
             });
         }
         let mut belief = Self {
@@ -108,7 +108,7 @@ impl Belief {
             kinds: [1.0 / KINDS as f32; KINDS],
             opinion: [0.5; 256],
             neighborhoods,
-            places,
+            bits,
             room: Room::new(briefing),
             random: Random::new(briefing.seed),
             known,
@@ -318,9 +318,9 @@ impl Belief {
             return;
         }
         sample.open[wall] = u8::from(open);
-        let around = self.neighborhoods[wall].iter().zip(self.places[wall]);
-        for (&other, place) in around {
-            sample.patterns[usize::from(other)] ^= 1 << place;
+        let around = self.neighborhoods[wall].iter().zip(self.bits[wall]);
+        for (&other, bit) in around {
+            sample.patterns[usize::from(other)] ^= bit;
         }
     }
 }

@@ -13,6 +13,16 @@ pub struct Room {
     /// The walls around it, of which one is open.
     entrances: Vec<u16>,
     inside: Vec<u16>,
+    /// By wall: asked for every unknown wall after every step.
+    parts: Vec<Part>,
+}
+
+/// What a wall is to the room.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Part {
+    Nothing,
+    Entrance,
+    Inside,
 }
 
 impl Room {
@@ -27,6 +37,7 @@ impl Room {
                 && !goal.contains(briefing.start),
             entrances: Vec::new(),
             inside: Vec::new(),
+            parts: vec![Part::Nothing; grid.wall_count()],
         };
         if !room.believed {
             return room;
@@ -35,13 +46,14 @@ impl Room {
             for side in Heading::ALL {
                 let wall = grid.wall(grid.cell(cell), side) as u16;
                 let inner = cell.toward(side, 1).is_some_and(|it| goal.contains(it));
-                let list = if inner {
-                    &mut room.inside
+                let (list, part) = if inner {
+                    (&mut room.inside, Part::Inside)
                 } else {
-                    &mut room.entrances
+                    (&mut room.entrances, Part::Entrance)
                 };
                 if !list.contains(&wall) {
                     list.push(wall);
+                    room.parts[usize::from(wall)] = part;
                 }
             }
         }
@@ -65,12 +77,12 @@ impl Room {
 
     /// Whether the room says that a wall is open.
     pub fn is_inside(&self, wall: usize) -> bool {
-        self.believed && self.inside.contains(&(wall as u16))
+        self.believed && self.parts[wall] == Part::Inside
     }
 
     /// Whether the room says what that wall is like.
     pub fn holds(&self, wall: usize) -> bool {
-        self.is_inside(wall) || (self.believed && self.entrances.contains(&(wall as u16)))
+        self.believed && self.parts[wall] != Part::Nothing
     }
 
     /// Gives up the belief when what has been seen contradicts it.

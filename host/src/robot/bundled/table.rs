@@ -19,7 +19,7 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/champion.wasm"),
-        sha256: "ff1c3f65e6b4625cb41e00d07614a73bc18e7e79c0d69f492779c8684c1057ea",
+        sha256: "c500c06e8b94ac83a2f5682bd3377bbf436ef753abd15732fb775dcbf95e14e7",
     },
     BundledRobot {
         name: "count-expansion",
