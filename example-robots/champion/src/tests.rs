@@ -88,3 +88,41 @@ fn an_unknown_setting() {
         ..Briefing::contest(12)
     });
 }
+
+/// A maze with a third of its walls, the same every time.
+fn any_maze(dimension: u32) -> String {
+    let mut random = wasmouse_sdk::Random::new(7);
+    let mut passages = wasmouse_sdk::Passages::all_open(dimension);
+    let area = Area::new(Cell::new(0, 0), dimension, dimension);
+    for cell in area.cells() {
+        for side in [Heading::Up, Heading::Right] {
+            if random.below(3) == 0 {
+                passages.close(cell, side);
+            }
+        }
+    }
+    let value = |x, y| {
+        let sides = Heading::ALL.into_iter().enumerate();
+        let open = sides.filter(|it| passages.is_open(Cell::new(x, y), it.1));
+        open.map(|it| 1 << it.0).sum::<u32>().to_string()
+    };
+    let columns = (0..dimension).map(|x| {
+        let values: Vec<String> = (0..dimension).map(|y| value(x, y)).collect();
+        values.join(",")
+    });
+    let lines: Vec<String> = std::iter::once(dimension.to_string())
+        .chain(columns)
+        .collect();
+    lines.join("\n")
+}
+
+/// So that the fuel of a match is enough in half-size mazes too.
+#[test]
+fn thinks_deeply_in_small_mazes_only() {
+    let stops = |dimension, setting| {
+        let options = PlayOptions::of_setting(setting);
+        testing::play::<Champion>(&any_maze(dimension), &options).stops
+    };
+    assert_ne!(stops(20, 0), stops(20, 1));
+    assert_eq!(stops(22, 0), stops(22, 1));
+}

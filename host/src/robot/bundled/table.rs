@@ -19,7 +19,7 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/champion.wasm"),
-        sha256: "c500c06e8b94ac83a2f5682bd3377bbf436ef753abd15732fb775dcbf95e14e7",
+        sha256: "7f0341b7268bbfbcc09551c6fdb556ae62e9519dda5114ae2436b04f4211e977",
     },
     BundledRobot {
         name: "count-expansion",
