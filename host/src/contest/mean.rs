@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::fmt;
 
-use crate::sim::Score;
+use wasmouse_core::game::Score;
 
 /// The average of one or more scores or of what is made from scores, as an
 /// exact fraction.
@@ -12,10 +12,11 @@ use crate::sim::Score;
 ///
 /// ```
 /// use wasmouse::contest::Mean;
-/// use wasmouse::sim::Score;
+/// use wasmouse_core::game::Score;
 ///
 /// let scores = [Score::new(17, 18, 30), Score::new(22, 23, 30)];
-/// let mean: Mean = scores.into_iter().collect::<Option<_>>().expect("two scores");
+/// let mean = scores.into_iter().map(Mean::from).collect::<Option<Mean>>();
+/// let mean = mean.expect("two scores");
 /// assert_eq!(mean.to_string(), "20.183");
 /// ```
 #[derive(Clone, Copy, Debug)]
@@ -76,28 +77,6 @@ impl From<Score> for Mean {
             numerator: numerator(score),
             denominator: i128::from(score.divisor()),
         }
-    }
-}
-
-impl FromIterator<Score> for Option<Mean> {
-    /// The average of the scores; `None` of none.
-    ///
-    /// All scores have one divisor: they are of one ruleset.
-    fn from_iter<I: IntoIterator<Item = Score>>(scores: I) -> Self {
-        let mut scores = scores.into_iter();
-        let first = scores.next()?;
-        let divisor = i128::from(first.divisor());
-        let mut numerator = numerator(first);
-        let mut count = 1;
-        for score in scores {
-            debug_assert_eq!(score.divisor(), first.divisor(), "scores of one ruleset");
-            numerator += self::numerator(score);
-            count += 1;
-        }
-        Some(Mean {
-            numerator,
-            denominator: divisor * count,
-        })
     }
 }
 
@@ -169,7 +148,7 @@ mod tests {
     fn mean(scores: &[(u32, u32)]) -> Option<Mean> {
         scores
             .iter()
-            .map(|&(speed, exploration)| Score::new(speed, exploration, 30))
+            .map(|&(speed, exploration)| Mean::from(Score::new(speed, exploration, 30)))
             .collect()
     }
 

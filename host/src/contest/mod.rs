@@ -1,26 +1,30 @@
-//! Many matches: robots by mazes by seeds, and the standings they make.
+//! Contests: robots by mazes by seeds, and the standings they make.
 //!
-//! The fourth stage of the pipeline `maze -> sim -> robot -> contest -> report`.
-//! A [`Contest`] is a value that says what is played; [`Contest::run`] plays it
-//! on any number of threads and returns the results in the contest's own order,
-//! the same on one thread or many. Prints nothing and reads no files.
+//! A [`Plan`] says what is played. [`run`] plays it with an executor on any number of threads
+//! and passes each match to a [`Sink`], in the order of the plan. Standings, fault summaries and
+//! the parts of the [`Results`] document are sinks. Prints nothing and opens no files.
 
-mod benchmark;
+mod best;
+mod faults;
+mod maze_source;
 mod mean;
+mod plan;
+mod results;
 mod run;
+mod sink;
 mod standings;
-mod study;
 mod tally;
 
-pub use benchmark::Benchmark;
+pub use best::{BestMatch, BestMatches};
+pub use faults::{FaultGroup, FaultSummary};
+pub use maze_source::{ContestMaze, MazeSource};
 pub use mean::Mean;
-pub use run::{
-    Contest, ContestError, ContestMaze, Entrant, FailedMatch, MatchResult, Pairing, Played,
-    Progress,
+pub use plan::{Entrant, KeyParts, Plan, Player, Seeds};
+pub use results::{
+    ContestInfo, MazeEntry, Names, RESULTS_VERSION, RejectionEntry, Results, RobotEntry, Summary,
+    SummaryBuilder, records_digest,
 };
-pub use standings::{Standing, standings};
-pub use study::{
-    CompetitionMazes, Group, STUDY_QUICK, STUDY_QUICK_COMPETITION, STUDY_SEEDS, Study,
-    study_families,
-};
-pub use tally::{Against, Regret, Tally};
+pub use run::{Options, RunError, run};
+pub use sink::{ContestMatch, MatchFailure, RecordList, Sink, Tee};
+pub use standings::{Standing, Standings, StandingsBuilder};
+pub use tally::{Regret, Tally};

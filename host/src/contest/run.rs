@@ -1,360 +1,382 @@
-//! [`Contest`]: what is played, and playing it on many threads.
+//! [`run`]: plays a plan on many threads.
+//!
+//! Threads take batches of one player each. Batches are cut from blocks of consecutive mazes
+//! and seeds, block after block, so a contest of a million matches needs the memory of a few
+//! blocks; mazes are generated and solved by the thread that needs them first. Matches end in
+//! any order and reach the sink in the order of the plan.
 
-use std::ops::ControlFlow;
-use std::sync::Arc;
+use std::collections::VecDeque;
+use std::io;
+use std::ops::{ControlFlow, Range};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::thread;
 
-use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
+use wasmouse_core::record::MatchKey;
+use wasmouse_engine::{Executor, STACK_BYTES};
 
-use crate::maze::Maze;
-use crate::maze::omniscient_floor;
-use crate::robot::{
-    Digest, Game, HostError, Outcome, Player, Record, Recorder, Referee, Refusal, STACK_BYTES,
-};
-use crate::sim::{Ruleset, Score};
+use super::maze_source::ContestMaze;
+use super::plan::{KeyParts, Plan, Player};
+use super::sink::{ContestMatch, MatchFailure, Sink};
 
-/// Matches that a thread plays in a row, at most: what a worker process gets in one
-/// message.
-const ROW_MAX: usize = 64;
+/// Matches of one player that a thread takes at once, at most.
+const BATCH_MAX: usize = 64;
 
-/// Rows for each thread, at least, so that all end at about the same time.
-const ROWS_PER_THREAD: usize = 8;
+/// Batches for each thread, at least, so that all end at about the same time.
+const BATCHES_PER_JOB: u64 = 8;
 
-/// A robot that takes part, or was meant to.
-#[derive(Clone)]
-pub struct Entrant {
-    /// What the standings call it.
-    pub name: String,
-    /// The digest of the file that was submitted.
-    pub digest: Digest,
-    /// The variant of the robot.
-    pub setting: u32,
-    /// The admitted robot, or why it plays no match.
-    pub admission: Result<Arc<Player>, Arc<Refusal>>,
+/// Matches in a block, at most.
+const BLOCK_MATCHES_MAX: usize = 4096;
+
+/// Mazes and seeds in a block, at most.
+const BLOCK_ROWS_MAX: usize = 256;
+
+/// How many blocks the threads may be ahead of the first one that is not complete.
+const BLOCKS_AHEAD: usize = 8;
+
+/// How a contest is run.
+pub struct Options<'a> {
+    /// Threads. Range: at least 1.
+    pub jobs: usize,
+    /// When this becomes true, matches that have not begun are left out.
+    pub cancelled: &'a AtomicBool,
+    /// Which matches to play: all, or those that are missing somewhere.
+    pub wanted: &'a (dyn Fn(&MatchKey) -> bool + Sync),
+    /// Called for every match as it ends, from any thread.
+    pub progress: &'a (dyn Fn() + Sync),
 }
 
-/// A maze with its name and what a robot that knows it would score.
-#[derive(Clone, Debug)]
-pub struct ContestMaze {
-    /// What results call it.
-    pub name: String,
-    /// The maze.
-    pub maze: Maze,
-    /// The digest of [`Maze::identity_bytes`].
-    pub digest: Digest,
-    /// The score of the optimal path, a reset, and the optimal path again;
-    /// `None` when the goal cannot be reached.
-    pub floor: Option<Score>,
+/// Why a contest did not come to its end.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// A thread could not be started.
+    #[error("failed to start a thread: {0}")]
+    Thread(io::Error),
+    /// A sink could not go on.
+    #[error("failed to store results: {0}")]
+    Sink(io::Error),
 }
 
-impl ContestMaze {
-    /// A maze with its digest and floor under these rules.
-    pub fn new(name: String, maze: Maze, rules: &Ruleset) -> Self {
-        let floor = omniscient_floor(&maze, rules.longest_move).map(|floor| {
-            Score::new(
-                floor.speed_steps,
-                floor.exploration_steps,
-                rules.exploration_divisor,
-            )
-        });
-        Self {
-            name,
-            digest: Digest::of(&maze.identity_bytes()),
-            maze,
-            floor,
+/// Plays a plan.
+///
+/// # Errors
+///
+/// When a thread cannot be started or the sink fails. What the sink has received by then
+/// stands.
+pub fn run(
+    plan: &Plan,
+    executor: &dyn Executor,
+    options: &Options<'_>,
+    sink: &mut dyn Sink,
+) -> Result<(), RunError> {
+    let players = plan.players();
+    let jobs = options.jobs.max(1);
+    let rows = plan.mazes.len() as u64 * u64::from(plan.seeds.count);
+    if players.is_empty() || rows == 0 {
+        return Ok(());
+    }
+    let block_rows = (BLOCK_MATCHES_MAX / players.len()).clamp(1, BLOCK_ROWS_MAX);
+    let batch = plan.matches() / (jobs as u64 * BATCHES_PER_JOB);
+    let batch = usize::try_from(batch).unwrap_or(BATCH_MAX);
+    let run = Run {
+        plan,
+        players: &players,
+        parts: plan.key_parts(),
+        executor,
+        options,
+        jobs,
+        rows,
+        block_rows: block_rows as u64,
+        batch: batch.clamp(1, BATCH_MAX),
+        state: Mutex::new(State::default()),
+        changed: Condvar::new(),
+        sink: Mutex::new(Emitter {
+            sink,
+            last_maze: None,
+        }),
+    };
+    thread::scope(|scope| {
+        for job in 0..jobs {
+            thread::Builder::new()
+                .name(format!("matches-{job}"))
+                .stack_size(STACK_BYTES)
+                .spawn_scoped(scope, || run.work())
+                .map_err(|error| {
+                    run.fail(RunError::Thread(error));
+                })
+                .ok();
+        }
+    });
+    run.finish()
+}
+
+/// A contest in progress.
+struct Run<'a> {
+    plan: &'a Plan,
+    players: &'a [Player],
+    parts: KeyParts,
+    executor: &'a dyn Executor,
+    options: &'a Options<'a>,
+    jobs: usize,
+    /// Mazes times seeds: one row is one maze with one seed, for all players.
+    rows: u64,
+    block_rows: u64,
+    /// Rows in a batch.
+    batch: usize,
+    state: Mutex<State>,
+    /// Signalled when a block was emitted, or the run failed.
+    changed: Condvar,
+    /// Locked only while `state` is locked too, or by the thread that took a block from it.
+    sink: Mutex<Emitter<'a>>,
+}
+
+#[derive(Default)]
+struct State {
+    /// Blocks that are in progress, in order; the first one is emitted next.
+    blocks: VecDeque<Arc<Block>>,
+    /// Rows that are in blocks already.
+    begun: u64,
+    /// Batches of the last block that are not taken yet, last one first.
+    batches: Vec<Batch>,
+    error: Option<RunError>,
+}
+
+/// Consecutive rows.
+struct Block {
+    rows: Range<u64>,
+    first_maze: usize,
+    mazes: Vec<OnceLock<ContestMaze>>,
+    slots: Mutex<Slots>,
+}
+
+/// What came of the matches of a block.
+struct Slots {
+    /// By row, then by player; `None` while a match is not played.
+    matches: Vec<Option<Ended>>,
+    /// Batches that have not ended.
+    batches_left: usize,
+}
+
+enum Ended {
+    Played(ContestMatch),
+    Failed(MatchFailure),
+}
+
+/// Rows of one player, relative to the block.
+struct Batch {
+    player: usize,
+    rows: Range<usize>,
+}
+
+struct Emitter<'a> {
+    sink: &'a mut dyn Sink,
+    last_maze: Option<usize>,
+}
+
+impl Run<'_> {
+    /// Plays batches until there are none.
+    fn work(&self) {
+        while let Some((block, batch)) = self.take() {
+            let ended = self.play(&block, &batch);
+            {
+                let mut slots = lock(&block.slots);
+                for (row, ended) in batch.rows.clone().zip(ended) {
+                    slots.matches[row * self.players.len() + batch.player] = ended;
+                }
+                slots.batches_left -= 1;
+            }
+            self.emit_complete();
         }
     }
-}
 
-/// Every entrant in every maze with every seed.
-///
-/// The order of matches is entrants, then mazes, then seeds. Refused entrants
-/// play none.
-pub struct Contest {
-    /// Who plays.
-    pub entrants: Vec<Entrant>,
-    /// Where.
-    pub mazes: Vec<ContestMaze>,
-    /// With which seeds; each seed is the same in every maze.
-    pub seeds: Vec<u64>,
-    /// By which rules.
-    pub rules: Ruleset,
-}
-
-/// A match that is to be played.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Pairing {
-    /// Index into [`Contest::entrants`].
-    pub entrant: usize,
-    /// Index into [`Contest::mazes`].
-    pub maze: usize,
-    /// The seed, which need not be one of [`Contest::seeds`].
-    pub seed: u64,
-}
-
-/// What came of one match.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct MatchResult {
-    /// Index into [`Contest::entrants`].
-    pub entrant: usize,
-    /// Index into [`Contest::mazes`].
-    pub maze: usize,
-    /// The seed.
-    pub seed: u64,
-    /// How it ended.
-    pub outcome: Outcome,
-    /// The digest of the trace.
-    pub trace: Digest,
-    /// Entries that the robot's journal has, and that were dropped from it.
-    pub journal: (u64, u64),
-}
-
-/// A match that the host could not play, even when tried again. It says nothing
-/// about the robot, counts for nothing, and has to be played another time.
-#[derive(Debug)]
-pub struct FailedMatch {
-    /// Index into [`Contest::entrants`].
-    pub entrant: usize,
-    /// Index into [`Contest::mazes`].
-    pub maze: usize,
-    /// The seed.
-    pub seed: u64,
-    /// What went wrong.
-    pub error: HostError,
-}
-
-/// What has been played of a contest, in the contest's order.
-#[derive(Debug, Default)]
-pub struct Played {
-    /// The results.
-    pub results: Vec<MatchResult>,
-    /// The failures of the host.
-    pub failed: Vec<FailedMatch>,
-}
-
-/// Told about every match as it ends, from any thread, in any order.
-pub type Progress<'a> = dyn Fn() + Sync + 'a;
-
-/// Why a contest did not end.
-#[derive(Debug, thiserror::Error)]
-pub enum ContestError {
-    /// The threads could not be started.
-    #[error("failed to start {threads} threads: {reason}")]
-    Threads {
-        /// How many.
-        threads: usize,
-        /// What the operating system said.
-        reason: String,
-    },
-}
-
-impl Contest {
-    /// How many matches will be played.
-    pub fn matches(&self) -> usize {
-        let admitted = self
-            .entrants
-            .iter()
-            .filter(|entrant| entrant.admission.is_ok());
-        admitted.count() * self.mazes.len() * self.seeds.len()
+    fn is_cancelled(&self) -> bool {
+        self.options.cancelled.load(Ordering::Relaxed)
     }
 
-    /// All matches, in the contest's order.
-    pub fn pairings(&self) -> Vec<Pairing> {
-        let mut pairings = Vec::with_capacity(self.matches());
-        for (entrant, Entrant { admission, .. }) in self.entrants.iter().enumerate() {
-            if admission.is_err() {
-                continue;
+    /// The next batch with its block; waits while the threads are too far ahead.
+    fn take(&self) -> Option<(Arc<Block>, Batch)> {
+        let mut state = lock(&self.state);
+        loop {
+            if state.error.is_some() || self.is_cancelled() {
+                return None;
             }
-            for maze in 0..self.mazes.len() {
-                pairings.extend(self.seeds.iter().map(|&seed| Pairing {
-                    entrant,
-                    maze,
-                    seed,
+            if let Some(batch) = state.batches.pop() {
+                let block = state
+                    .blocks
+                    .back()
+                    .expect("batches belong to the last block");
+                return Some((Arc::clone(block), batch));
+            }
+            if state.begun == self.rows {
+                return None;
+            }
+            if state.blocks.len() < BLOCKS_AHEAD {
+                self.begin_block(&mut state);
+            } else {
+                state = self
+                    .changed
+                    .wait(state)
+                    .unwrap_or_else(PoisonError::into_inner);
+            }
+        }
+    }
+
+    fn begin_block(&self, state: &mut State) {
+        let rows = state.begun..self.rows.min(state.begun + self.block_rows);
+        state.begun = rows.end;
+        let length = usize::try_from(rows.end - rows.start).expect("a block is small");
+        let (first, last) = (self.maze_of(rows.start), self.maze_of(rows.end - 1));
+        // The threads begin in different mazes, so that each prepares its own.
+        let starts: Vec<usize> = (0..length).step_by(self.batch).collect();
+        for group in starts.chunks(self.jobs) {
+            for player in 0..self.players.len() {
+                state.batches.extend(group.iter().map(|&start| Batch {
+                    player,
+                    rows: start..length.min(start + self.batch),
                 }));
             }
         }
-        pairings
+        state.batches.reverse();
+        let matches = length * self.players.len();
+        state.blocks.push_back(Arc::new(Block {
+            rows,
+            first_maze: first,
+            mazes: (first..=last).map(|_| OnceLock::new()).collect(),
+            slots: Mutex::new(Slots {
+                matches: (0..matches).map(|_| None).collect(),
+                batches_left: state.batches.len(),
+            }),
+        }));
     }
 
-    /// Plays all matches on `threads` threads (at least 1). When `cancelled`
-    /// becomes true, matches that have not begun are left out.
-    ///
-    /// # Errors
-    ///
-    /// When the threads cannot be started.
-    pub fn run(
-        &self,
-        referee: &Referee,
-        threads: usize,
-        cancelled: &AtomicBool,
-        progress: &Progress<'_>,
-    ) -> Result<Played, ContestError> {
-        self.run_only(&self.pairings(), referee, threads, cancelled, progress)
+    /// The maze of a row, as an index into the plan's.
+    fn maze_of(&self, row: u64) -> usize {
+        let maze = row / u64::from(self.plan.seeds.count);
+        usize::try_from(maze).expect("there are as many mazes as fit memory")
     }
 
-    /// Plays these matches as [`Contest::run`] plays all, and returns what came of
-    /// them in their order. Those of refused entrants are left out.
-    ///
-    /// # Errors
-    ///
-    /// When the threads cannot be started.
-    pub fn run_only(
-        &self,
-        pairings: &[Pairing],
-        referee: &Referee,
-        threads: usize,
-        cancelled: &AtomicBool,
-        progress: &Progress<'_>,
-    ) -> Result<Played, ContestError> {
-        let threads = threads.max(1);
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .stack_size(STACK_BYTES)
-            .thread_name(|index| format!("matches-{index}"))
-            .build()
-            .map_err(|error| ContestError::Threads {
-                threads,
-                reason: error.to_string(),
-            })?;
-        let rows = self.rows(pairings, threads);
-        let played: Vec<Vec<Result<MatchResult, FailedMatch>>> = pool.install(|| {
-            rows.into_par_iter()
-                .map_init(Recorder::default, |recorder, row| {
-                    if cancelled.load(Ordering::Relaxed) {
-                        return Vec::new();
-                    }
-                    self.play(referee, &row, recorder, &mut || {
-                        progress();
-                        !cancelled.load(Ordering::Relaxed)
-                    })
-                })
-                .collect()
-        });
-        let mut all = Played::default();
-        for match_played in played.into_iter().flatten() {
-            match match_played {
-                Ok(result) => all.results.push(result),
-                Err(failed) => all.failed.push(failed),
+    fn seed_of(&self, row: u64) -> u64 {
+        let position = row % u64::from(self.plan.seeds.count);
+        let position = u32::try_from(position).expect("a remainder of a u32");
+        self.plan.seeds.get(position)
+    }
+
+    fn maze<'a>(&self, block: &'a Block, row: u64) -> &'a ContestMaze {
+        let index = self.maze_of(row);
+        block.mazes[index - block.first_maze]
+            .get_or_init(|| self.plan.mazes[index].prepare(&self.plan.rules.game))
+    }
+
+    /// Plays a batch; what is not wanted, and what was not played when the contest was
+    /// cancelled, is left out at the end.
+    fn play(&self, block: &Block, batch: &Batch) -> Vec<Option<Ended>> {
+        let player = &self.players[batch.player];
+        let first = block.rows.start;
+        let mut wanted = Vec::with_capacity(batch.rows.len());
+        let mut specs = Vec::with_capacity(batch.rows.len());
+        for row in batch.rows.clone() {
+            let row_in_plan = first + row as u64;
+            let maze = self.maze(block, row_in_plan);
+            let seed = self.seed_of(row_in_plan);
+            let spec = self.plan.spec(self.parts, player, maze, seed);
+            let is_wanted = (self.options.wanted)(&spec.key);
+            wanted.push(is_wanted);
+            if is_wanted {
+                specs.push(spec);
             }
         }
-        Ok(all)
-    }
-
-    /// Plays the match of a result again and leaves its trace and journal in
-    /// `recorder`; `None` when the entrant was refused.
-    ///
-    /// Matches are reproducible, so results need not carry their traces.
-    ///
-    /// # Errors
-    ///
-    /// When the host fails.
-    pub fn replay(
-        &self,
-        referee: &Referee,
-        result: &MatchResult,
-        recorder: &mut Recorder,
-    ) -> Result<Option<Outcome>, HostError> {
-        let Ok(player) = &self.entrants[result.entrant].admission else {
-            return Ok(None);
-        };
-        let game = self.game_of(result);
-        referee.record(player, &game, recorder).map(Some)
-    }
-
-    /// The match of a result.
-    pub fn game_of(&self, result: &MatchResult) -> Game<'_> {
-        self.game(&result.pairing())
-    }
-
-    fn game(&self, pairing: &Pairing) -> Game<'_> {
-        Game {
-            maze: &self.mazes[pairing.maze].maze,
-            rules: &self.rules,
-            seed: pairing.seed,
-            setting: self.entrants[pairing.entrant].setting,
-        }
-    }
-
-    /// Matches in their order, cut into rows of one entrant each.
-    fn rows<'a>(&'a self, pairings: &'a [Pairing], threads: usize) -> Vec<Row<'a>> {
-        let length = pairings.len() / (threads * ROWS_PER_THREAD);
-        let length = length.clamp(1, ROW_MAX);
-        let mut rows = Vec::new();
-        for own in pairings.chunk_by(|a, b| a.entrant == b.entrant) {
-            let Ok(player) = &self.entrants[own[0].entrant].admission else {
-                continue;
-            };
-            rows.extend(own.chunks(length).map(|pairings| Row { player, pairings }));
-        }
-        rows
-    }
-
-    fn play(
-        &self,
-        referee: &Referee,
-        row: &Row<'_>,
-        recorder: &mut Recorder,
-        goes_on: &mut dyn FnMut() -> bool,
-    ) -> Vec<Result<MatchResult, FailedMatch>> {
-        let games: Vec<Game<'_>> = row.pairings.iter().map(|it| self.game(it)).collect();
-        let mut pairings = row.pairings.iter();
-        let mut played = Vec::with_capacity(games.len());
-        let _ = referee.play(row.player, &games, recorder, &mut |record| {
-            let pairing = pairings.next().expect("a record for each game");
-            played.push(match record {
-                Ok(record) => Ok(MatchResult::new(pairing, record)),
-                Err(error) => Err(FailedMatch {
-                    entrant: pairing.entrant,
-                    maze: pairing.maze,
-                    seed: pairing.seed,
-                    error,
-                }),
+        let mut ended = Vec::with_capacity(specs.len());
+        let _ = self
+            .executor
+            .execute(&player.robot, &specs, &mut |spec, played| {
+                ended.push(match played {
+                    Ok(played) => Ended::Played(ContestMatch {
+                        player: batch.player,
+                        record: played.record,
+                        transcript: played.transcript.clone(),
+                    }),
+                    Err(error) => Ended::Failed(MatchFailure {
+                        key: spec.key,
+                        reason: error.to_string(),
+                    }),
+                });
+                (self.options.progress)();
+                if self.is_cancelled() {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
             });
-            if goes_on() {
-                ControlFlow::Continue(())
-            } else {
-                ControlFlow::Break(())
+        let mut ended = ended.into_iter();
+        wanted
+            .into_iter()
+            .map(|is_wanted| if is_wanted { ended.next() } else { None })
+            .collect()
+    }
+
+    /// Emits the blocks at the front that are complete.
+    fn emit_complete(&self) {
+        let mut state = lock(&self.state);
+        while let Some(block) = state.blocks.front() {
+            let is_last = state.blocks.len() == 1;
+            if lock(&block.slots).batches_left > 0 || (is_last && !state.batches.is_empty()) {
+                return;
             }
-        });
-        played
-    }
-}
-
-impl MatchResult {
-    /// Which match it is.
-    pub const fn pairing(&self) -> Pairing {
-        Pairing {
-            entrant: self.entrant,
-            maze: self.maze,
-            seed: self.seed,
+            let block = state.blocks.pop_front().expect("there is a first one");
+            // The order of blocks is kept, because the sink is taken before the state is
+            // given back.
+            let mut emitter = lock(&self.sink);
+            drop(state);
+            let emitted = self.emit(&block, &mut emitter);
+            drop(emitter);
+            self.changed.notify_all();
+            state = lock(&self.state);
+            if let Err(error) = emitted {
+                state.error.get_or_insert(RunError::Sink(error));
+                return;
+            }
         }
     }
 
-    fn new(pairing: &Pairing, record: Record) -> Self {
-        Self {
-            entrant: pairing.entrant,
-            maze: pairing.maze,
-            seed: pairing.seed,
-            outcome: record.outcome,
-            trace: record.trace,
-            journal: record.journal,
+    fn emit(&self, block: &Block, emitter: &mut Emitter<'_>) -> io::Result<()> {
+        let matches = std::mem::take(&mut lock(&block.slots).matches);
+        for (position, ended) in matches.into_iter().enumerate() {
+            let Some(ended) = ended else { continue };
+            let row = block.rows.start + (position / self.players.len()) as u64;
+            let maze = self.maze_of(row);
+            if emitter.last_maze != Some(maze) {
+                emitter.last_maze = Some(maze);
+                emitter.sink.maze(self.maze(block, row))?;
+            }
+            match ended {
+                Ended::Played(played) => emitter.sink.played(&played)?,
+                Ended::Failed(failure) => emitter.sink.failed(&failure)?,
+            }
         }
+        Ok(())
+    }
+
+    fn fail(&self, error: RunError) {
+        lock(&self.state).error.get_or_insert(error);
+        self.changed.notify_all();
+    }
+
+    /// Emits what is left of a contest that was cancelled.
+    fn finish(self) -> Result<(), RunError> {
+        let state = std::mem::take(&mut *lock(&self.state));
+        if let Some(error) = state.error {
+            return Err(error);
+        }
+        let mut emitter = lock(&self.sink);
+        state
+            .blocks
+            .iter()
+            .try_for_each(|block| self.emit(block, &mut emitter))
+            .map_err(RunError::Sink)
     }
 }
 
-impl FailedMatch {
-    /// Which match it is.
-    pub const fn pairing(&self) -> Pairing {
-        Pairing {
-            entrant: self.entrant,
-            maze: self.maze,
-            seed: self.seed,
-        }
-    }
-}
-
-/// Matches of one entrant to be played one after the other.
-struct Row<'a> {
-    player: &'a Player,
-    pairings: &'a [Pairing],
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    // Nothing that holds a lock panics half-way.
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

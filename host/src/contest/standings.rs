@@ -1,78 +1,155 @@
-//! [`standings`]: who did how well.
+//! [`Standings`]: who did how well.
 
 use std::cmp::Reverse;
+use std::io;
 
-use super::{Contest, MatchResult, Mean, Tally};
+use serde::{Deserialize, Serialize};
+use wasmouse_core::game::Score;
+
+use super::maze_source::ContestMaze;
+use super::mean::Mean;
+use super::plan::{Plan, Player};
+use super::sink::{ContestMatch, MatchFailure, Sink};
+use super::tally::Tally;
+
+/// The ranking of a contest.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Standings {
+    /// Mazes that the ranks are about: those that every robot has played with every seed.
+    pub mazes: u64,
+    /// Whether there are other mazes in the contest: the ranking is then a partial one.
+    pub partial: bool,
+    /// One line for each entrant, best first.
+    pub lines: Vec<Standing>,
+}
 
 /// One line of the standings.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Standing {
-    /// Counted from 1; entrants that did equally well share a rank. `None` for
-    /// an entrant that was refused.
+    /// Counted from 1; robots that did equally well share a rank. `None` for a robot that was
+    /// rejected, and for all while no maze was played by every robot.
     pub rank: Option<u32>,
-    /// Index into [`Contest::entrants`].
-    pub entrant: usize,
-    /// Matches played.
-    pub matches: u32,
+    /// The entrant's name.
+    pub robot: String,
+    /// Matches played in the ranked mazes.
+    pub matches: u64,
     /// Matches finished with a score.
-    pub finished: u32,
-    /// Matches whose budget ran out after run 1 had reached the goal.
-    pub goal_reached: u32,
+    pub finished: u64,
+    /// Matches whose budget ran out after the exploration run had reached the goal.
+    pub goal_reached: u64,
     /// Matches that ended in a fault.
-    pub faults: u32,
-    /// Average score of the finished matches.
-    pub score: Option<Mean>,
-    /// Average of score minus floor over the finished matches: how much worse
-    /// than a robot that knows the maze.
-    pub regret: Option<Mean>,
+    pub faults: u64,
+    /// Average score of the finished matches, in thousandths of a step.
+    pub mean_score_thousandths: Option<i64>,
+    /// Average of score minus oracle score over the finished matches, in thousandths of a step.
+    pub mean_regret_thousandths: Option<i64>,
 }
 
-/// The standings of a contest, best first.
-///
-/// More finished matches rank higher; among as many, the lower average score
-/// over the finished ones. Refused entrants come last, in the contest's order.
-pub fn standings(contest: &Contest, results: &[MatchResult]) -> Vec<Standing> {
-    let mut lines: Vec<Standing> = (0..contest.entrants.len())
-        .map(|entrant| standing(contest, entrant, &[]))
-        .collect();
-    // Results come in the contest's order, so those of an entrant are together.
-    for own in results.chunk_by(|a, b| a.entrant == b.entrant) {
-        let entrant = own[0].entrant;
-        lines[entrant] = standing(contest, entrant, own);
-    }
-    lines.sort_by_key(|line| {
-        let refused = contest.entrants[line.entrant].admission.is_err();
-        (refused, key(line), line.entrant)
-    });
-    let mut rank = 0;
-    for place in 0..lines.len() {
-        if contest.entrants[lines[place].entrant].admission.is_err() {
-            break;
+/// Counts matches maze by maze, as they arrive.
+#[derive(Debug)]
+pub struct StandingsBuilder {
+    /// Matches of one maze when it is complete.
+    matches_per_maze: u64,
+    mazes_planned: u64,
+    mazes: u64,
+    /// By player, over the complete mazes.
+    tallies: Vec<Tally>,
+    /// By player, of the maze in progress.
+    current: Vec<Tally>,
+    oracle: Option<Score>,
+}
+
+impl StandingsBuilder {
+    /// Standings without matches.
+    pub fn new(plan: &Plan, players: &[Player]) -> Self {
+        Self {
+            matches_per_maze: players.len() as u64 * u64::from(plan.seeds.count),
+            mazes_planned: plan.mazes.len() as u64,
+            mazes: 0,
+            tallies: vec![Tally::default(); players.len()],
+            current: vec![Tally::default(); players.len()],
+            oracle: None,
         }
-        if place == 0 || key(&lines[place]) != key(&lines[place - 1]) {
-            rank = u32::try_from(place + 1).unwrap_or(u32::MAX);
-        }
-        lines[place].rank = Some(rank);
     }
-    lines
+
+    /// Takes the maze in progress into account when every robot has played it.
+    fn end_maze(&mut self) {
+        let matches: u64 = self.current.iter().map(|tally| tally.matches).sum();
+        if matches > 0 && matches == self.matches_per_maze {
+            self.mazes += 1;
+            for (tally, current) in self.tallies.iter_mut().zip(&self.current) {
+                tally.merge(current);
+            }
+        }
+        self.current.fill(Tally::default());
+    }
+
+    /// The standings of everything that has arrived.
+    ///
+    /// More finished matches rank higher; among as many, the lower average score of those.
+    /// Robots that were rejected come last, in the order of the plan.
+    pub fn finish(mut self, plan: &Plan, players: &[Player]) -> Standings {
+        self.end_maze();
+        let mut by_entrant: Vec<Option<&Tally>> = vec![None; plan.entrants.len()];
+        for (player, tally) in players.iter().zip(&self.tallies) {
+            for &entrant in &player.entrants {
+                by_entrant[entrant] = Some(tally);
+            }
+        }
+        let mut order: Vec<usize> = (0..plan.entrants.len()).collect();
+        order.sort_by_key(|&entrant| (by_entrant[entrant].is_none(), by_entrant[entrant].map(key)));
+        let mut lines = Vec::with_capacity(order.len());
+        let (mut rank, mut last) = (0, None);
+        for (place, &entrant) in order.iter().enumerate() {
+            let tally = by_entrant[entrant];
+            let key = tally.map(key);
+            if key != last {
+                rank = u32::try_from(place + 1).unwrap_or(u32::MAX);
+                last = key;
+            }
+            let is_ranked = tally.is_some() && self.mazes > 0;
+            let tally = tally.copied().unwrap_or_default();
+            lines.push(Standing {
+                rank: is_ranked.then_some(rank),
+                robot: plan.entrants[entrant].name.clone(),
+                matches: tally.matches,
+                finished: tally.finished,
+                goal_reached: tally.goal_reached,
+                faults: tally.faults,
+                mean_score_thousandths: tally.mean_score().map(Mean::thousandths),
+                mean_regret_thousandths: tally.mean_regret().map(|it| it.total.thousandths()),
+            });
+        }
+        Standings {
+            mazes: self.mazes,
+            partial: self.mazes < self.mazes_planned,
+            lines,
+        }
+    }
 }
 
-/// What entrants are ranked by, the best smallest. `None` scores only meet each
-/// other: they belong to 0 finished matches.
-fn key(line: &Standing) -> (Reverse<u32>, Option<Mean>) {
-    (Reverse(line.finished), line.score)
+/// What robots are ranked by, the best smallest. A missing average only meets other missing
+/// ones: it belongs to 0 finished matches.
+fn key(tally: &Tally) -> (Reverse<u64>, Option<Mean>) {
+    (Reverse(tally.finished), tally.mean_score())
 }
 
-fn standing(contest: &Contest, entrant: usize, results: &[MatchResult]) -> Standing {
-    let tally = Tally::of(contest, results);
-    Standing {
-        rank: None,
-        entrant,
-        matches: tally.matches,
-        finished: tally.finished,
-        goal_reached: tally.goal_reached,
-        faults: tally.faults,
-        score: tally.score,
-        regret: tally.regret.map(|regret| regret.total),
+impl Sink for StandingsBuilder {
+    fn maze(&mut self, maze: &ContestMaze) -> io::Result<()> {
+        self.end_maze();
+        self.oracle = maze.oracle;
+        Ok(())
+    }
+
+    fn played(&mut self, played: &ContestMatch) -> io::Result<()> {
+        self.current[played.player].add(&played.record, self.oracle);
+        Ok(())
+    }
+
+    fn failed(&mut self, _: &MatchFailure) -> io::Result<()> {
+        // A match that is missing leaves its maze incomplete, so the maze is not ranked.
+        Ok(())
     }
 }

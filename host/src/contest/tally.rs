@@ -1,264 +1,234 @@
-//! [`Tally`]: what some matches have in common, counted and averaged.
-//!
-//! Standings and studies are made of tallies; which matches belong together is
-//! decided there.
+//! [`Tally`]: the matches of one robot, counted and added up exactly.
 
-use super::{Benchmark, Contest, MatchResult, Mean};
-use crate::robot::{Phase, Verdict};
-use crate::sim::Score;
+use wasmouse_core::game::{Phase, Score, Verdict};
+use wasmouse_core::record::MatchRecord;
 
-/// Some matches of a contest, counted and averaged. Averages are over the
-/// finished ones, and `None` when there is none.
-#[derive(Clone, Debug, PartialEq, Eq)]
+use super::mean::Mean;
+
+/// Some matches of one robot under one ruleset.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
     /// Matches played.
-    pub matches: u32,
+    pub matches: u64,
     /// Matches finished with a score.
-    pub finished: u32,
-    /// Matches whose budget ran out after run 1 had reached the goal.
-    pub goal_reached: u32,
+    pub finished: u64,
+    /// Matches whose budget ran out after the exploration run had reached the goal.
+    pub goal_reached: u64,
     /// Matches that ended in a fault.
-    pub faults: u32,
-    /// Finished matches whose run 2 took as few steps as the maze allows.
-    pub optimal: u32,
-    /// Average score.
-    pub score: Option<Mean>,
-    /// Average of score minus floor.
-    pub regret: Option<Regret>,
-    /// How the scores stand against each of [`Benchmark::ALL`].
-    pub benchmarks: [Against; Benchmark::ALL.len()],
-    /// Answers that the robot was asked for in all matches: its steps, and the
-    /// call in which it failed. `start` is not one.
-    pub decisions: u64,
-    /// Fuel of all decisions together.
+    pub faults: u64,
+    /// Finished matches whose speed run took as few steps as the maze allows.
+    pub optimal: u64,
+    /// Steps of the robot in all matches, and the calls in which it failed.
+    pub steps: u64,
+    /// Fuel of all steps together.
     pub fuel: u64,
-    /// Fuel of the most expensive decision.
-    pub decision_fuel_max: u64,
+    /// Fuel of the most expensive step.
+    pub step_fuel_max: u64,
+    /// The scores, added up.
+    score: Sum,
+    /// Steps beyond the oracle's in each run of the finished matches, added up.
+    exploration: i64,
+    speed: i64,
+    /// Finished matches whose maze has an oracle score.
+    compared: u64,
 }
 
-/// How much worse than a robot that knows the maze, on average.
+/// Scores with one divisor, added up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Sum {
+    exploration_steps: u64,
+    speed_steps: u64,
+    divisor: u32,
+}
+
+/// How much worse than a robot that knows the maze, on average over the finished matches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Regret {
-    /// Average of score minus floor: the sum of the two parts.
+    /// Score minus oracle score: the sum of the two parts.
     pub total: Mean,
-    /// What run 1 adds: its steps beyond the optimal path and the reset, over
+    /// The part of the exploration run: its steps beyond the optimal path and the reset, over
     /// the ruleset's divisor.
     pub exploration: Mean,
-    /// What run 2 adds: its steps beyond the optimal path.
+    /// The part of the speed run: its steps beyond the optimal path.
     pub speed: Mean,
 }
 
-/// Scores against one benchmark.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Against {
-    /// Finished matches with a score lower than the benchmark.
-    pub beaten: u32,
-    /// Average of benchmark minus score: positive when scores are better.
-    pub margin: Option<Mean>,
-}
-
 impl Tally {
-    /// The tally of some results of a contest.
-    pub fn of<'a>(contest: &Contest, results: impl IntoIterator<Item = &'a MatchResult>) -> Self {
-        let mut tally = Self::default();
-        let mut finished = Vec::new();
-        for result in results {
-            tally.count(result);
-            if let Verdict::Finished(score) = result.outcome.verdict {
-                finished.push((score, result.maze));
-            }
-        }
-        // A maze that a robot has finished can be solved, so it has a floor.
-        let floors = || {
-            let floor = |&(score, maze): &(Score, usize)| Some((score, contest.mazes[maze].floor?));
-            finished.iter().filter_map(floor)
-        };
-        let is_optimal =
-            |(score, floor): &(Score, Score)| score.speed_steps() == floor.speed_steps();
-        tally.optimal = count(floors().filter(is_optimal));
-        tally.score = finished.iter().map(|&(score, _)| score).collect();
-        tally.regret = regret(floors());
-        tally.benchmarks = Benchmark::ALL.map(|benchmark| {
-            let margins = finished
-                .iter()
-                .filter_map(|&(score, maze)| benchmark.margin(score, &contest.mazes[maze]));
-            Against {
-                beaten: count(
-                    margins
-                        .clone()
-                        .filter(|&margin| margin > Mean::fraction(0, 1)),
-                ),
-                margin: margins.collect(),
-            }
-        });
-        tally
-    }
-
-    /// Average fuel of a decision, to the nearest unit; 0 without decisions.
-    pub const fn decision_fuel_mean(&self) -> u64 {
-        match self.decisions {
-            0 => 0,
-            decisions => (self.fuel + decisions / 2) / decisions,
-        }
-    }
-
-    fn count(&mut self, result: &MatchResult) {
-        let outcome = &result.outcome;
+    /// Adds a match in a maze with that oracle score.
+    pub fn add(&mut self, record: &MatchRecord, oracle: Option<Score>) {
         self.matches += 1;
-        match &outcome.verdict {
-            Verdict::Finished(_) => self.finished += 1,
-            Verdict::BudgetUsedUp { goal_reached } => self.goal_reached += u32::from(*goal_reached),
-            Verdict::Fault(fault) => {
+        match &record.verdict {
+            Verdict::Finished { score } => self.add_score(*score, oracle),
+            Verdict::BudgetUsedUp { goal_reached } => self.goal_reached += u64::from(*goal_reached),
+            Verdict::Fault { fault } => {
                 self.faults += 1;
-                self.decisions += u64::from(fault.phase == Phase::NextMove);
+                self.steps += u64::from(fault.phase == Phase::NextMove);
             }
         }
-        self.decisions += outcome.steps.map(u64::from).iter().sum::<u64>();
-        self.fuel += outcome.fuel.steps;
-        self.decision_fuel_max = self.decision_fuel_max.max(outcome.fuel.step_max);
+        self.steps += u64::from(record.steps.total());
+        self.fuel += record.fuel.steps;
+        self.step_fuel_max = self.step_fuel_max.max(record.fuel.step_max);
     }
-}
 
-impl Default for Tally {
-    /// The tally of no matches.
-    fn default() -> Self {
-        Self {
-            matches: 0,
-            finished: 0,
-            goal_reached: 0,
-            faults: 0,
-            optimal: 0,
-            score: None,
-            regret: None,
-            benchmarks: [Against {
-                beaten: 0,
-                margin: None,
-            }; Benchmark::ALL.len()],
-            decisions: 0,
-            fuel: 0,
-            decision_fuel_max: 0,
+    fn add_score(&mut self, score: Score, oracle: Option<Score>) {
+        self.finished += 1;
+        self.score.exploration_steps += u64::from(score.exploration_steps());
+        self.score.speed_steps += u64::from(score.speed_steps());
+        self.score.divisor = score.divisor();
+        if let Some(oracle) = oracle {
+            let more = |ours: u32, least: u32| i64::from(ours) - i64::from(least);
+            let speed = more(score.speed_steps(), oracle.speed_steps());
+            self.exploration += more(score.exploration_steps(), oracle.exploration_steps());
+            self.speed += speed;
+            self.optimal += u64::from(speed == 0);
+            self.compared += 1;
         }
     }
-}
 
-/// Averages of score minus floor, in parts.
-fn regret(scores: impl Iterator<Item = (Score, Score)> + Clone) -> Option<Regret> {
-    let total = scores
-        .clone()
-        .map(|(score, floor)| Mean::from(score).minus(Mean::from(floor)));
-    let exploration = scores.clone().map(|(score, floor)| {
-        let more = i128::from(score.exploration_steps()) - i128::from(floor.exploration_steps());
-        Mean::fraction(more, i128::from(score.divisor()))
-    });
-    let speed = scores.map(|(score, floor)| {
-        let more = i128::from(score.speed_steps()) - i128::from(floor.speed_steps());
-        Mean::fraction(more, 1)
-    });
-    Some(Regret {
-        total: total.collect::<Option<Mean>>()?,
-        exploration: exploration.collect::<Option<Mean>>()?,
-        speed: speed.collect::<Option<Mean>>()?,
-    })
-}
+    /// Adds all matches of another tally.
+    pub fn merge(&mut self, other: &Self) {
+        self.matches += other.matches;
+        self.finished += other.finished;
+        self.goal_reached += other.goal_reached;
+        self.faults += other.faults;
+        self.optimal += other.optimal;
+        self.steps += other.steps;
+        self.fuel += other.fuel;
+        self.step_fuel_max = self.step_fuel_max.max(other.step_fuel_max);
+        self.score.exploration_steps += other.score.exploration_steps;
+        self.score.speed_steps += other.score.speed_steps;
+        self.score.divisor = self.score.divisor.max(other.score.divisor);
+        self.exploration += other.exploration;
+        self.speed += other.speed;
+        self.compared += other.compared;
+    }
 
-fn count<T>(items: impl Iterator<Item = T>) -> u32 {
-    u32::try_from(items.count()).unwrap_or(u32::MAX)
+    /// The average score of the finished matches; `None` when there is none.
+    pub fn mean_score(&self) -> Option<Mean> {
+        let divisor = i128::from(self.score.divisor);
+        let speed = i128::from(self.score.speed_steps) * divisor;
+        let sum = speed + i128::from(self.score.exploration_steps);
+        (self.finished > 0).then(|| Mean::fraction(sum, divisor * i128::from(self.finished)))
+    }
+
+    /// The average regret of the finished matches; `None` when there is none.
+    pub fn mean_regret(&self) -> Option<Regret> {
+        if self.compared == 0 {
+            return None;
+        }
+        let count = i128::from(self.compared);
+        let divisor = i128::from(self.score.divisor);
+        let (exploration, speed) = (i128::from(self.exploration), i128::from(self.speed));
+        Some(Regret {
+            total: Mean::fraction(exploration + speed * divisor, divisor * count),
+            exploration: Mean::fraction(exploration, divisor * count),
+            speed: Mean::fraction(speed, count),
+        })
+    }
+
+    /// Average fuel of a step, to the nearest unit; 0 without steps.
+    pub const fn step_fuel_mean(&self) -> u64 {
+        match self.steps {
+            0 => 0,
+            steps => (self.fuel + steps / 2) / steps,
+        }
+    }
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
+    use wasmouse_core::Digest;
+    use wasmouse_core::game::{Counts, Fault, FaultKind, Run, Steps};
+    use wasmouse_core::journal::JournalCounts;
+    use wasmouse_core::maze::Cell;
+    use wasmouse_core::record::{FuelUse, MatchKey};
+
     use super::*;
-    use crate::contest::ContestMaze;
-    use crate::maze::{Cell, bundled, format};
-    use crate::robot::{Digest, Fault, FaultKind, FuelUse, Outcome};
-    use crate::sim::{Counts, Ruleset, Run};
 
-    /// A contest in maze 01, whose optimum is 17 steps.
-    fn contest() -> Contest {
-        let rules = Ruleset::default();
-        let maze = format::parse(bundled()[0].text).expect("a maze").maze;
-        Contest {
-            entrants: Vec::new(),
-            mazes: vec![ContestMaze::new("01".into(), maze, &rules)],
-            seeds: vec![0],
-            rules,
-        }
-    }
+    /// The oracle score of maze 01.
+    const ORACLE: Score = Score::new(17, 18, 30);
 
-    fn result(verdict: Verdict, steps: [u32; 2], fuel: (u64, u64)) -> MatchResult {
-        MatchResult {
-            entrant: 0,
-            maze: 0,
-            seed: 0,
-            outcome: Outcome {
-                verdict,
-                steps,
-                counts: Counts::default(),
-                fuel: FuelUse {
-                    start: 1_000_000,
-                    steps: fuel.0,
-                    step_max: fuel.1,
-                },
+    fn record(verdict: Verdict, steps: [u32; 2], fuel: (u64, u64)) -> MatchRecord {
+        let digest = Digest::of(b"");
+        MatchRecord {
+            key: MatchKey {
+                engine: digest,
+                rules: digest,
+                robot: digest,
+                variant: 0,
+                maze: digest,
+                seed: 0,
             },
-            trace: Digest::of(b""),
-            journal: (0, 0),
+            verdict,
+            steps: Steps {
+                exploration: steps[0],
+                speed: steps[1],
+            },
+            counts: Counts::default(),
+            fuel: FuelUse {
+                start: 1_000_000,
+                steps: fuel.0,
+                step_max: fuel.1,
+            },
+            journal: JournalCounts::default(),
+            transcript: digest,
         }
     }
 
-    fn finished(exploration: u32, speed: u32) -> MatchResult {
+    pub(in super::super) fn finished(exploration: u32, speed: u32) -> MatchRecord {
         let score = Score::new(speed, exploration, 30);
-        result(Verdict::Finished(score), [exploration, speed], (600, 20))
+        record(Verdict::Finished { score }, [exploration, speed], (600, 20))
     }
 
-    fn fault() -> MatchResult {
+    pub(in super::super) fn fault(kind: FaultKind) -> MatchRecord {
         let fault = Fault {
-            kind: FaultKind::Interface,
+            kind,
             phase: Phase::NextMove,
             run: Run::Exploration,
             step: 3,
             cell: Cell::new(0, 0),
             detail: String::new(),
         };
-        result(Verdict::Fault(fault), [2, 0], (10, 9))
+        record(Verdict::Fault { fault }, [2, 0], (10, 9))
+    }
+
+    fn tally(records: &[MatchRecord]) -> Tally {
+        let mut tally = Tally::default();
+        for record in records {
+            tally.add(record, Some(ORACLE));
+        }
+        tally
     }
 
     #[test]
     fn regret_is_split_into_its_parts() {
-        // Minnett's final robot in maze 01, and one that needs 3 steps more in run 2.
-        let results = [finished(110, 17), finished(18, 20), fault()];
-        let tally = Tally::of(&contest(), &results);
+        // Minnett's final robot in maze 01, and one that needs 3 steps more in the speed run.
+        let records = [finished(110, 17), finished(18, 20), fault(FaultKind::Panic)];
+        let tally = tally(&records);
         assert_eq!((tally.matches, tally.finished, tally.faults), (3, 2, 1));
         assert_eq!(tally.optimal, 1);
-        let regret = tally.regret.expect("two scores");
+        let regret = tally.mean_regret().expect("two scores");
         assert_eq!(regret.exploration, Mean::fraction(92, 60));
         assert_eq!(regret.speed, Mean::fraction(3, 2));
         assert_eq!(regret.total.to_string(), "3.033");
+        let mean = tally.mean_score().expect("two scores");
+        assert_eq!(mean, Mean::fraction(37 * 30 + 128, 60));
     }
 
     #[test]
-    fn a_benchmark_is_beaten_by_a_lower_score_only() {
-        // 17 + 144 / 30 is the lower benchmark itself.
-        let results = [finished(110, 17), finished(144, 17), finished(174, 17)];
-        let tally = Tally::of(&contest(), &results);
-        let [_, lower, upper, ..] = tally.benchmarks;
-        assert_eq!((lower.beaten, upper.beaten), (1, 3));
-        // (34 + 0 - 30) / 30 / 3.
-        assert_eq!(lower.margin, Some(Mean::fraction(4, 90)));
-        assert_eq!(upper.margin, Some(Mean::fraction(4 + 3 * 144, 90)));
-    }
-
-    #[test]
-    fn every_call_for_an_answer_is_a_decision() {
-        let tally = Tally::of(&contest(), &[finished(30, 20), fault()]);
-        assert_eq!((tally.decisions, tally.fuel), (53, 610));
-        assert_eq!(tally.decision_fuel_mean(), 12);
-        assert_eq!(tally.decision_fuel_max, 20);
+    fn tallies_add_up() {
+        let records = [finished(110, 17), fault(FaultKind::Panic), finished(18, 20)];
+        let mut sum = tally(&records[..1]);
+        sum.merge(&tally(&records[1..]));
+        assert_eq!(sum, tally(&records));
+        assert_eq!((sum.steps, sum.fuel), (127 + 3 + 38, 1210));
+        assert_eq!((sum.step_fuel_mean(), sum.step_fuel_max), (7, 20));
     }
 
     #[test]
     fn nothing_has_no_averages() {
-        let tally = Tally::of(&contest(), &[]);
-        assert_eq!(tally, Tally::default());
-        assert_eq!(tally.decision_fuel_mean(), 0);
+        let tally = Tally::default();
+        assert_eq!((tally.mean_score(), tally.mean_regret()), (None, None));
+        assert_eq!(tally.step_fuel_mean(), 0);
     }
 }

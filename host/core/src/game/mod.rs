@@ -1,0 +1,23 @@
+//! One match without its robot: rules, sensors, motion, score, trace, verdict.
+//!
+//! Pure: a [`Simulation`] is given the robot's actions and knows neither wasm nor time nor
+//! chance. The rules are those of the Udacity "Plot and Navigate a Virtual Maze" contest, as
+//! its public tester plays them.
+
+mod action;
+mod rules;
+mod run;
+mod sandbox_limits;
+mod score;
+mod simulation;
+mod trace;
+mod verdict;
+
+pub use action::{Action, Sensors};
+pub use rules::{BudgetScope, GameRules, Ruleset};
+pub use run::{Run, Steps};
+pub use sandbox_limits::SandboxLimits;
+pub use score::Score;
+pub use simulation::{Counts, Event, Simulation};
+pub use trace::{Step, Trace};
+pub use verdict::{Fault, FaultKind, FuelLimit, Phase, Verdict};

@@ -1,0 +1,82 @@
+//! [`SandboxLimits`]: every limit on what a running robot may use, each with the attack
+//! that it stops.
+//!
+//! Plain numbers: the engine enforces them. They are part of the ruleset because a verdict
+//! can depend on each of them.
+
+use serde::{Deserialize, Serialize};
+
+/// The limits of one match.
+///
+/// The defaults are wide enough for interpreted languages (a Python or JavaScript robot
+/// takes 20,000 to 100,000 units of fuel for a simple step, a compiled one about 70) and
+/// still end an endless loop within seconds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SandboxLimits {
+    /// Fuel for instantiation (start functions, data segments), and again for the call of
+    /// `start`. Stops endless loops before the first step. Default 2,000,000,000.
+    pub start_fuel_max: u64,
+    /// Fuel for one call of `next-move`. Stops endless loops in a step. Default
+    /// 2,000,000,000.
+    pub step_fuel_max: u64,
+    /// Fuel for `start` and all steps of a match together. Stops robots that stay just
+    /// under the step limit a thousand times. Default 20,000,000,000.
+    pub match_fuel_max: u64,
+    /// Linear memory of all instances of a match together, in bytes. Stops `memory.grow`,
+    /// and many memories that are each just under a per-memory cap. Default 256 MiB.
+    pub memory_bytes_max: u64,
+    /// Table elements of all instances of a match together. Stops `table.grow`. Default
+    /// 100,000.
+    pub table_elements_max: u64,
+    /// Wasm call stack, in bytes. Stops unbounded recursion. Default 512 KiB.
+    pub stack_bytes_max: u64,
+    /// Journal of a match, in bytes: 16 for each entry plus the length of its text. Stops
+    /// robots that fill the host's memory with log lines. Later entries are dropped and
+    /// counted. Default 1 MiB.
+    pub journal_bytes_max: u64,
+    /// Bytes that one call into the host may copy out of the robot. Stops a log line of
+    /// gigabytes. Default 64 KiB.
+    pub host_call_bytes_max: u64,
+}
+
+impl SandboxLimits {
+    /// The limits as numbers for a canonical encoding, in the order of the fields.
+    pub(super) const fn numbers(&self) -> [u64; 8] {
+        let Self {
+            start_fuel_max,
+            step_fuel_max,
+            match_fuel_max,
+            memory_bytes_max,
+            table_elements_max,
+            stack_bytes_max,
+            journal_bytes_max,
+            host_call_bytes_max,
+        } = *self;
+        [
+            start_fuel_max,
+            step_fuel_max,
+            match_fuel_max,
+            memory_bytes_max,
+            table_elements_max,
+            stack_bytes_max,
+            journal_bytes_max,
+            host_call_bytes_max,
+        ]
+    }
+}
+
+impl Default for SandboxLimits {
+    fn default() -> Self {
+        Self {
+            start_fuel_max: 2_000_000_000,
+            step_fuel_max: 2_000_000_000,
+            match_fuel_max: 20_000_000_000,
+            memory_bytes_max: 256 << 20,
+            table_elements_max: 100_000,
+            stack_bytes_max: 512 << 10,
+            journal_bytes_max: 1 << 20,
+            host_call_bytes_max: 64 << 10,
+        }
+    }
+}

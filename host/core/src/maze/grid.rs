@@ -1,0 +1,367 @@
+//! The walls of a square grid ([`Walls`]) and a playable [`Maze`] made of them.
+//!
+//! A wall belongs to the two cells it separates. Both cells keep a bit for it,
+//! written together by [`Walls::set`], so that reading is one load and the two
+//! can never disagree. The perimeter is always closed: a file with a gap in it
+//! is refused by the formats, because a robot could leave through it.
+
+use std::fmt;
+use std::ops::RangeInclusive;
+
+use super::{Area, Cell, Heading};
+use crate::Digest;
+
+/// The sizes of maze that wasmouse handles, in cells along each side.
+///
+/// Contest mazes are 12 to 16 (and up to 20 in the reports), half-size contest
+/// mazes 32; 64 leaves room without letting a file ask for gigabytes.
+pub const DIMENSIONS: RangeInclusive<u8> = 2..=64;
+
+/// The walls of a square grid of cells with a closed perimeter.
+///
+/// ```
+/// use wasmouse_core::maze::{Cell, Heading, Walls};
+/// let mut walls = Walls::closed(12);
+/// walls.set(Cell::new(0, 0), Heading::Up, true);
+/// assert!(walls.is_open(Cell::new(0, 1), Heading::Down));
+/// assert!(!walls.is_open(Cell::new(0, 0), Heading::Left));
+/// ```
+#[derive(Clone, PartialEq, Eq, Hash)]
+pub struct Walls {
+    dimension: u8,
+    /// One Udacity value per cell, column by column: bit set = side open.
+    open: Box<[u8]>,
+}
+
+impl Walls {
+    /// A grid of `dimension` x `dimension` cells with every wall standing.
+    ///
+    /// # Panics
+    ///
+    /// When `dimension` is outside [`DIMENSIONS`].
+    pub fn closed(dimension: u8) -> Self {
+        assert!(
+            DIMENSIONS.contains(&dimension),
+            "dimension {dimension} is outside 2..=64"
+        );
+        Self {
+            dimension,
+            open: vec![0; usize::from(dimension) * usize::from(dimension)].into(),
+        }
+    }
+
+    /// A grid with only the perimeter standing.
+    ///
+    /// # Panics
+    ///
+    /// When `dimension` is outside [`DIMENSIONS`].
+    pub fn open(dimension: u8) -> Self {
+        let mut walls = Self::closed(dimension);
+        let cells: Vec<Cell> = walls.cells().collect();
+        for cell in cells {
+            for heading in [Heading::Up, Heading::Right] {
+                if walls.neighbor(cell, heading).is_some() {
+                    walls.set(cell, heading, true);
+                }
+            }
+        }
+        walls
+    }
+
+    /// Cells along each side, in [`DIMENSIONS`].
+    pub const fn dimension(&self) -> u8 {
+        self.dimension
+    }
+
+    /// All cells, column by column from the left, each from the bottom up.
+    pub fn cells(&self) -> impl Iterator<Item = Cell> + use<> {
+        let n = self.dimension;
+        (0..n).flat_map(move |x| (0..n).map(move |y| Cell::new(x, y)))
+    }
+
+    /// Whether the grid has that cell.
+    pub const fn contains(&self, cell: Cell) -> bool {
+        cell.x < self.dimension && cell.y < self.dimension
+    }
+
+    /// The place of `cell` in the order of [`Walls::cells`]; below dimension squared.
+    pub const fn index(&self, cell: Cell) -> usize {
+        cell.x as usize * self.dimension as usize + cell.y as usize
+    }
+
+    /// The cell on that side, walls or not; `None` outside the grid.
+    pub fn neighbor(&self, cell: Cell, heading: Heading) -> Option<Cell> {
+        cell.step(heading).filter(|&cell| self.contains(cell))
+    }
+
+    /// Whether nothing stands on that side of `cell`. The perimeter never is open.
+    ///
+    /// # Panics
+    ///
+    /// When `cell` is outside the grid.
+    pub fn is_open(&self, cell: Cell, heading: Heading) -> bool {
+        self.value(cell) & heading.bit() != 0
+    }
+
+    /// The sides of `cell` as a Udacity value: the sum of 1 up, 2 right, 4 down
+    /// and 8 left, for the sides that are open. Range: 0 to 15.
+    ///
+    /// # Panics
+    ///
+    /// When `cell` is outside the grid.
+    pub fn value(&self, cell: Cell) -> u8 {
+        assert!(self.contains(cell), "{cell} is outside the maze");
+        self.open[self.index(cell)]
+    }
+
+    /// Opens or closes the wall on that side of `cell`, for both its cells.
+    ///
+    /// # Panics
+    ///
+    /// When `cell` is outside the grid, or to open the perimeter.
+    pub fn set(&mut self, cell: Cell, heading: Heading, open: bool) {
+        assert!(self.contains(cell), "{cell} is outside the maze");
+        let Some(neighbor) = self.neighbor(cell, heading) else {
+            assert!(!open, "the perimeter cannot be opened at {cell}, {heading}");
+            return;
+        };
+        let sides = [(cell, heading), (neighbor, heading.opposite())];
+        for (cell, heading) in sides {
+            let index = self.index(cell);
+            if open {
+                self.open[index] |= heading.bit();
+            } else {
+                self.open[index] &= !heading.bit();
+            }
+        }
+    }
+}
+
+impl fmt::Debug for Walls {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Walls")
+            .field("dimension", &self.dimension)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Why walls, a start and a goal do not make a maze.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum MazeError {
+    /// The start lies outside the grid.
+    #[error("start {start} is outside the {dimension} x {dimension} maze")]
+    StartOutside {
+        /// The start that was asked for.
+        start: Cell,
+        /// Cells along each side.
+        dimension: u8,
+    },
+    /// A goal cell lies outside the grid.
+    #[error("goal cell {cell} is outside the {dimension} x {dimension} maze")]
+    GoalOutside {
+        /// The first goal cell outside.
+        cell: Cell,
+        /// Cells along each side.
+        dimension: u8,
+    },
+    /// The start lies in the goal, so there would be nothing to find.
+    #[error("start {start} lies in the goal")]
+    StartInGoal {
+        /// The start that was asked for.
+        start: Cell,
+    },
+}
+
+/// A maze that a match can be played in: walls, a start and a goal.
+///
+/// Immutable, because it also holds the distance to the nearest wall from every
+/// cell in every direction, which makes a sensor reading one load. Says nothing
+/// about contest legality: see [`violations`](super::violations).
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Maze {
+    walls: Walls,
+    start: Cell,
+    goal: Area,
+    /// Open cells to the nearest wall, by cell index and heading.
+    reach: Box<[[u8; 4]]>,
+}
+
+impl Maze {
+    /// The maze with these walls, start and goal.
+    ///
+    /// # Errors
+    ///
+    /// When the start or a goal cell is outside the grid, or the start is in the goal.
+    pub fn new(walls: Walls, start: Cell, goal: Area) -> Result<Self, MazeError> {
+        let dimension = walls.dimension();
+        if !walls.contains(start) {
+            return Err(MazeError::StartOutside { start, dimension });
+        }
+        if let Some(cell) = goal.cells().find(|&cell| !walls.contains(cell)) {
+            return Err(MazeError::GoalOutside { cell, dimension });
+        }
+        if goal.contains(start) {
+            return Err(MazeError::StartInGoal { start });
+        }
+        let reach = walls
+            .cells()
+            .map(|cell| Heading::ALL.map(|heading| open_cells(&walls, cell, heading)))
+            .collect();
+        Ok(Self {
+            walls,
+            start,
+            goal,
+            reach,
+        })
+    }
+
+    /// The maze with the start at (0, 0) and the goal in the centre.
+    ///
+    /// # Errors
+    ///
+    /// When the start lies in the goal: the grid is 2 x 2.
+    ///
+    /// ```
+    /// use wasmouse_core::maze::{Cell, Heading, Maze, Walls};
+    /// let maze = Maze::contest(Walls::open(12)).expect("a 12 x 12 maze has room for both");
+    /// assert_eq!(maze.reach(Cell::new(0, 0), Heading::Up), 11);
+    /// ```
+    pub fn contest(walls: Walls) -> Result<Self, MazeError> {
+        let goal = Area::center(walls.dimension());
+        Self::new(walls, Cell::new(0, 0), goal)
+    }
+
+    /// The walls.
+    pub const fn walls(&self) -> &Walls {
+        &self.walls
+    }
+
+    /// Cells along each side, in [`DIMENSIONS`].
+    pub const fn dimension(&self) -> u8 {
+        self.walls.dimension()
+    }
+
+    /// Where both runs start, heading up.
+    pub const fn start(&self) -> Cell {
+        self.start
+    }
+
+    /// The goal cells.
+    pub const fn goal(&self) -> Area {
+        self.goal
+    }
+
+    /// The number of open cells between `cell` and the nearest wall in that
+    /// direction; 0 when the wall stands at this side of the cell.
+    ///
+    /// # Panics
+    ///
+    /// When `cell` is outside the maze.
+    pub fn reach(&self, cell: Cell, heading: Heading) -> u8 {
+        assert!(self.walls.contains(cell), "{cell} is outside the maze");
+        self.reach[self.walls.index(cell)][heading as usize]
+    }
+
+    /// The bytes that identify this maze: dimension, start, goal and the value
+    /// of every cell. Equal mazes have equal bytes whatever file they came from.
+    pub fn identity_bytes(&self) -> Vec<u8> {
+        let goal = self.goal;
+        let mut bytes = vec![
+            self.dimension(),
+            self.start.x,
+            self.start.y,
+            goal.origin().x,
+            goal.origin().y,
+            goal.width(),
+            goal.height(),
+        ];
+        bytes.extend_from_slice(&self.walls.open);
+        bytes
+    }
+
+    /// The identity of the maze: the SHA-256 of [`Maze::identity_bytes`].
+    pub fn digest(&self) -> Digest {
+        Digest::of(&self.identity_bytes())
+    }
+
+    /// The maze that these bytes identify; `None` when they identify none.
+    ///
+    /// ```
+    /// use wasmouse_core::maze::{Maze, Walls};
+    /// let maze = Maze::contest(Walls::open(12)).expect("room for start and goal");
+    /// assert_eq!(Maze::from_identity_bytes(&maze.identity_bytes()), Some(maze));
+    /// assert_eq!(Maze::from_identity_bytes(&[12, 0]), None);
+    /// ```
+    pub fn from_identity_bytes(bytes: &[u8]) -> Option<Self> {
+        let (&[dimension, start_x, start_y, goal_x, goal_y, width, height], values) =
+            bytes.split_first_chunk()?;
+        let cells = usize::from(dimension) * usize::from(dimension);
+        if !DIMENSIONS.contains(&dimension) || values.len() != cells {
+            return None;
+        }
+        let mut walls = Walls::closed(dimension);
+        for (cell, value) in walls.cells().zip(values) {
+            for heading in Heading::ALL {
+                if value & heading.bit() != 0 {
+                    walls.neighbor(cell, heading)?;
+                    walls.set(cell, heading, true);
+                }
+            }
+        }
+        // A side that is open for one of its cells alone is no maze's.
+        if *walls.open != *values {
+            return None;
+        }
+        let goal = Area::new(Cell::new(goal_x, goal_y), width, height)?;
+        Self::new(walls, Cell::new(start_x, start_y), goal).ok()
+    }
+}
+
+fn open_cells(walls: &Walls, from: Cell, heading: Heading) -> u8 {
+    let mut cell = from;
+    let mut count = 0;
+    while walls.is_open(cell, heading) {
+        let Some(next) = walls.neighbor(cell, heading) else {
+            break;
+        };
+        cell = next;
+        count += 1;
+    }
+    count
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_cells_agree_about_a_wall() {
+        let mut walls = Walls::open(5);
+        walls.set(Cell::new(2, 2), Heading::Right, false);
+        assert!(!walls.is_open(Cell::new(3, 2), Heading::Left));
+        walls.set(Cell::new(3, 2), Heading::Left, true);
+        assert!(walls.is_open(Cell::new(2, 2), Heading::Right));
+    }
+
+    #[test]
+    #[should_panic(expected = "perimeter")]
+    fn the_perimeter_stays_closed() {
+        Walls::closed(4).set(Cell::new(0, 0), Heading::Left, true);
+    }
+
+    #[test]
+    fn reach_counts_open_cells() {
+        let mut walls = Walls::open(6);
+        walls.set(Cell::new(0, 3), Heading::Up, false);
+        let maze = Maze::contest(walls).expect("legal start and goal");
+        assert_eq!(maze.reach(Cell::new(0, 0), Heading::Up), 3);
+        assert_eq!(maze.reach(Cell::new(0, 4), Heading::Down), 0);
+        assert_eq!(maze.reach(Cell::new(0, 4), Heading::Right), 5);
+    }
+
+    #[test]
+    fn a_start_in_the_goal_is_refused() {
+        let error = Maze::contest(Walls::open(2)).expect_err("2 x 2 is all goal");
+        assert_eq!(error.to_string(), "start (0, 0) lies in the goal");
+    }
+}

@@ -1,0 +1,178 @@
+//! [`replay`]: from a transcript to what it means by the rules.
+
+use super::{Ending, Transcript};
+use crate::game::{Action, Counts, GameRules, Phase, Simulation, Steps, Trace, Verdict};
+use crate::maze::Maze;
+
+/// What a match came to by the rules of the game.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct GameResult {
+    /// How it ended.
+    pub verdict: Verdict,
+    /// Steps of both runs.
+    pub steps: Steps,
+    /// Bumps, clamps, ignored resets.
+    pub counts: Counts,
+}
+
+impl GameResult {
+    /// The result of a match that has come to its end.
+    ///
+    /// # Errors
+    ///
+    /// When the simulation and the ending contradict each other.
+    pub fn new(simulation: &Simulation<'_>, ending: &Ending) -> Result<Self, ReplayError> {
+        let verdict = match (ending, simulation.verdict()) {
+            (Ending::Rules, Some(verdict)) => verdict,
+            (Ending::Rules, None) => return Err(ReplayError::Unfinished),
+            (Ending::Fault { .. }, Some(_)) => return Err(ReplayError::FaultAfterEnd),
+            (
+                Ending::Fault {
+                    kind,
+                    phase,
+                    detail,
+                },
+                None,
+            ) => {
+                if *phase != Phase::NextMove && simulation.steps().total() > 0 {
+                    return Err(ReplayError::FaultBeforeSteps);
+                }
+                Verdict::Fault {
+                    fault: simulation.fault(*kind, *phase, detail.clone()),
+                }
+            }
+        };
+        Ok(Self {
+            verdict,
+            steps: simulation.steps(),
+            counts: simulation.counts(),
+        })
+    }
+}
+
+/// Why a transcript cannot be of a match in that maze by those rules.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ReplayError {
+    /// There are actions after the end of the match.
+    #[error("there are actions after the end of the match")]
+    ActionAfterEnd,
+    /// It stops although the match goes on.
+    #[error("it stops in the middle of the match")]
+    Unfinished,
+    /// It ends with a fault although the rules had ended the match.
+    #[error("there is a fault after the end of the match")]
+    FaultAfterEnd,
+    /// It ends with a fault from before the first step, and has steps.
+    #[error("there are steps before a fault of the start")]
+    FaultBeforeSteps,
+}
+
+/// Replays a transcript without the robot.
+///
+/// # Errors
+///
+/// When it cannot be of a match in that maze by those rules.
+pub fn replay(
+    maze: &Maze,
+    rules: &GameRules,
+    transcript: &Transcript,
+) -> Result<GameResult, ReplayError> {
+    play(maze, rules, transcript, |simulation, action| {
+        simulation.apply(action);
+    })
+}
+
+/// Replays a transcript without the robot and keeps every reading and event.
+///
+/// # Errors
+///
+/// When it cannot be of a match in that maze by those rules.
+///
+/// ```
+/// use wasmouse_core::game::{Action, GameRules, Verdict};
+/// use wasmouse_core::maze::{Maze, Turn, Walls};
+/// use wasmouse_core::record::{Transcript, trace};
+///
+/// let maze = Maze::contest(Walls::open(12)).expect("a legal start and goal");
+/// let rules = GameRules { budget: 2, ..GameRules::default() };
+/// let mut transcript = Transcript::default();
+/// transcript.push(Action::Move { turn: Turn::Straight, advance: 3 });
+/// transcript.push(Action::Reset);
+/// let (result, trace) = trace(&maze, &rules, &transcript).expect("two steps");
+/// assert_eq!(result.verdict, Verdict::BudgetUsedUp { goal_reached: false });
+/// assert_eq!(trace.steps()[1].sensors.front, 8);
+/// ```
+pub fn trace(
+    maze: &Maze,
+    rules: &GameRules,
+    transcript: &Transcript,
+) -> Result<(GameResult, Trace), ReplayError> {
+    let mut trace = Trace::default();
+    let result = play(maze, rules, transcript, |simulation, action| {
+        trace.apply(simulation, action);
+    })?;
+    Ok((result, trace))
+}
+
+fn play(
+    maze: &Maze,
+    rules: &GameRules,
+    transcript: &Transcript,
+    mut apply: impl FnMut(&mut Simulation<'_>, Action),
+) -> Result<GameResult, ReplayError> {
+    let mut simulation = Simulation::new(maze, rules);
+    for action in transcript.actions() {
+        if simulation.has_ended() {
+            return Err(ReplayError::ActionAfterEnd);
+        }
+        apply(&mut simulation, action);
+    }
+    GameResult::new(&simulation, transcript.ending())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::game::FaultKind;
+    use crate::maze::{Turn, Walls};
+
+    #[track_caller]
+    fn check(actions: usize, fault: Option<Phase>, expected: Result<u32, ReplayError>) {
+        let maze = Maze::contest(Walls::open(12)).expect("a maze");
+        let rules = GameRules {
+            budget: 3,
+            ..GameRules::default()
+        };
+        let mut transcript = Transcript::default();
+        for _ in 0..actions {
+            transcript.push(Action::Move {
+                turn: Turn::Straight,
+                advance: 1,
+            });
+        }
+        if let Some(phase) = fault {
+            transcript.end_with_fault(FaultKind::Panic, phase, "panicked".to_owned());
+        }
+        let result = replay(&maze, &rules, &transcript);
+        let steps = result.clone().map(|it| it.steps.total());
+        assert_eq!(steps, expected, "{actions} actions, {fault:?}");
+        if let (Some(phase), Ok(result)) = (fault, result) {
+            let fault = result.verdict.fault().expect("a fault");
+            let in_progress = u32::from(phase == Phase::NextMove);
+            assert_eq!(fault.step, result.steps.total() + in_progress);
+        }
+    }
+
+    #[test]
+    fn only_matches_that_can_be_are_replayed() {
+        check(3, None, Ok(3));
+        check(2, None, Err(ReplayError::Unfinished));
+        check(4, None, Err(ReplayError::ActionAfterEnd));
+        check(2, Some(Phase::NextMove), Ok(2));
+        check(0, Some(Phase::Start), Ok(0));
+        check(0, Some(Phase::Unknown), Ok(0));
+        check(1, Some(Phase::Start), Err(ReplayError::FaultBeforeSteps));
+        check(1, Some(Phase::Unknown), Err(ReplayError::FaultBeforeSteps));
+        check(3, Some(Phase::NextMove), Err(ReplayError::FaultAfterEnd));
+    }
+}

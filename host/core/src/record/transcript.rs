@@ -1,0 +1,353 @@
+//! [`Transcript`]: the robot's actions in a match, at about one byte a step.
+
+use crate::game::{Action, FaultKind, Phase};
+use crate::maze::Turn;
+use crate::{Digest, DigestBuilder};
+
+/// How a match ended.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Ending {
+    /// By the rules: in the goal, or with the last step of the budget.
+    #[default]
+    Rules,
+    /// By a fault of the robot.
+    Fault {
+        /// What happened.
+        kind: FaultKind,
+        /// What the robot was doing.
+        phase: Phase,
+        /// What exactly, for the contestant; untrusted text.
+        detail: String,
+    },
+}
+
+/// The robot's actions in a match, in order, and how the match ended.
+///
+/// With the maze and the rules it gives the whole match again ([`replay`](super::replay)).
+/// Reused from match to match, so that a contest does not allocate for each.
+///
+/// # Encoding
+///
+/// [`Transcript::to_bytes`] writes, in this order:
+///
+/// | bytes | meaning |
+/// |---|---|
+/// | 1 | the version of the encoding, 1 |
+/// | 1 | the ending: 0 by the rules, else 1 + the position in [`FaultKind::ALL`] |
+/// | 1, 4, n | only after a fault: the position in [`Phase::ALL`], the length of the detail (little endian), the detail in UTF-8 |
+/// | rest | the actions |
+///
+/// An action is one byte: 0 for a reset, 4 + 84 x turn + (advance + 42) for a move with an
+/// advance from -42 to 41 and a turn of 0 left, 1 straight, 2 right. Any other move is two
+/// bytes: 1 + turn, then the advance as a signed byte. Each transcript has exactly one
+/// encoding.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Transcript {
+    /// Actions as in the encoding; always valid.
+    actions: Vec<u8>,
+    ending: Ending,
+}
+
+/// Why bytes are not a transcript.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum TranscriptError {
+    /// It ends too early.
+    #[error("the transcript is truncated")]
+    Truncated,
+    /// Another version of the encoding.
+    #[error("the transcript has version {0}, and this program reads version {VERSION}")]
+    Version(u8),
+    /// A byte that means nothing there.
+    #[error("byte {offset} of the transcript is invalid")]
+    Invalid {
+        /// Counted from 0.
+        offset: usize,
+    },
+}
+
+const VERSION: u8 = 1;
+
+const RESET: u8 = 0;
+const FIRST_MOVE: u8 = 4;
+const ADVANCE_MIN: i8 = -42;
+const ADVANCES: u8 = 84;
+
+const TURNS: [Turn; 3] = [Turn::Left, Turn::Straight, Turn::Right];
+
+impl Transcript {
+    /// Forgets everything and keeps the memory.
+    pub fn clear(&mut self) {
+        self.actions.clear();
+        self.ending = Ending::Rules;
+    }
+
+    /// Adds an action.
+    pub fn push(&mut self, action: Action) {
+        match action {
+            Action::Reset => self.actions.push(RESET),
+            Action::Move { turn, advance } => {
+                let turn = turn as u8;
+                match short_code(advance) {
+                    Some(code) => self.actions.push(FIRST_MOVE + ADVANCES * turn + code),
+                    None => {
+                        let advance = advance.cast_unsigned();
+                        self.actions.extend([RESET + 1 + turn, advance]);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Ends the match by a fault.
+    pub fn end_with_fault(&mut self, kind: FaultKind, phase: Phase, detail: String) {
+        self.ending = Ending::Fault {
+            kind,
+            phase,
+            detail,
+        };
+    }
+
+    /// The actions, in order.
+    pub fn actions(&self) -> impl Iterator<Item = Action> {
+        let mut bytes = self.actions.iter().copied();
+        std::iter::from_fn(move || {
+            let first = bytes.next()?;
+            Some(decode(first, || bytes.next()).expect("only valid actions are kept"))
+        })
+    }
+
+    /// How the match ended.
+    pub const fn ending(&self) -> &Ending {
+        &self.ending
+    }
+
+    /// The identity of the transcript: the SHA-256 of its encoding.
+    pub fn digest(&self) -> Digest {
+        DigestBuilder::plain()
+            .raw(&self.header())
+            .raw(&self.actions)
+            .finish()
+    }
+
+    /// The encoding.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = self.header();
+        bytes.extend_from_slice(&self.actions);
+        bytes
+    }
+
+    /// Reads an encoding.
+    ///
+    /// # Errors
+    ///
+    /// When the bytes are not exactly what [`Transcript::to_bytes`] writes.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, TranscriptError> {
+        let mut reader = Reader { bytes, offset: 0 };
+        match reader.byte()? {
+            VERSION => {}
+            other => return Err(TranscriptError::Version(other)),
+        }
+        let ending = match reader.byte()? {
+            0 => Ending::Rules,
+            code => {
+                let kind = reader.choose(&FaultKind::ALL, code - 1)?;
+                let phase = reader.byte()?;
+                let phase = reader.choose(&Phase::ALL, phase)?;
+                let length = u32::from_le_bytes(*reader.array()?);
+                let start = reader.offset;
+                let detail = reader.take(usize::try_from(length).unwrap_or(usize::MAX))?;
+                let detail = std::str::from_utf8(detail).map_err(|error| {
+                    let offset = start + error.valid_up_to();
+                    TranscriptError::Invalid { offset }
+                })?;
+                Ending::Fault {
+                    kind,
+                    phase,
+                    detail: detail.to_owned(),
+                }
+            }
+        };
+        let actions = &bytes[reader.offset..];
+        while let Ok(first) = reader.byte() {
+            let offset = reader.offset - 1;
+            let mut missing = false;
+            let action = decode(first, || {
+                let second = reader.byte();
+                missing = second.is_err();
+                second.ok()
+            });
+            if missing {
+                return Err(TranscriptError::Truncated);
+            }
+            if action.is_none() {
+                return Err(TranscriptError::Invalid { offset });
+            }
+        }
+        Ok(Self {
+            actions: actions.to_vec(),
+            ending,
+        })
+    }
+
+    fn header(&self) -> Vec<u8> {
+        match &self.ending {
+            Ending::Rules => vec![VERSION, 0],
+            Ending::Fault {
+                kind,
+                phase,
+                detail,
+            } => {
+                let length = u32::try_from(detail.len()).expect("a detail is shorter than 4 GiB");
+                let mut bytes = vec![
+                    VERSION,
+                    1 + position(&FaultKind::ALL, kind),
+                    position(&Phase::ALL, phase),
+                ];
+                bytes.extend(length.to_le_bytes());
+                bytes.extend_from_slice(detail.as_bytes());
+                bytes
+            }
+        }
+    }
+}
+
+fn position<T: PartialEq>(all: &[T], value: &T) -> u8 {
+    let position = all.iter().position(|it| it == value);
+    let position = position.expect("every value is in the list of all");
+    u8::try_from(position).expect("a list of fewer than 255 values")
+}
+
+/// The code of an advance that fits one byte together with its turn.
+fn short_code(advance: i8) -> Option<u8> {
+    let code = u8::try_from(i16::from(advance) - i16::from(ADVANCE_MIN)).ok()?;
+    (code < ADVANCES).then_some(code)
+}
+
+/// The action that begins with `first`; `None` when there is none, or when a short action is
+/// written in the long form.
+fn decode(first: u8, second: impl FnOnce() -> Option<u8>) -> Option<Action> {
+    match first {
+        RESET => Some(Action::Reset),
+        1..FIRST_MOVE => {
+            let advance = second()?.cast_signed();
+            let turn = TURNS[usize::from(first - 1)];
+            let action = Action::Move { turn, advance };
+            short_code(advance).is_none().then_some(action)
+        }
+        FIRST_MOVE.. => {
+            let code = first - FIRST_MOVE;
+            Some(Action::Move {
+                turn: TURNS[usize::from(code / ADVANCES)],
+                advance: (code % ADVANCES).cast_signed() + ADVANCE_MIN,
+            })
+        }
+    }
+}
+
+struct Reader<'a> {
+    bytes: &'a [u8],
+    offset: usize,
+}
+
+impl<'a> Reader<'a> {
+    fn take(&mut self, length: usize) -> Result<&'a [u8], TranscriptError> {
+        let rest = &self.bytes[self.offset..];
+        let taken = rest.get(..length).ok_or(TranscriptError::Truncated)?;
+        self.offset += length;
+        Ok(taken)
+    }
+
+    fn array<const N: usize>(&mut self) -> Result<&'a [u8; N], TranscriptError> {
+        let taken = self.take(N)?;
+        Ok(taken.first_chunk().expect("N bytes were taken"))
+    }
+
+    fn byte(&mut self) -> Result<u8, TranscriptError> {
+        let [byte] = *self.array()?;
+        Ok(byte)
+    }
+
+    /// The value that the byte just read stands for.
+    fn choose<T: Copy>(&self, all: &[T], code: u8) -> Result<T, TranscriptError> {
+        let offset = self.offset - 1;
+        let chosen = all.get(usize::from(code)).copied();
+        chosen.ok_or(TranscriptError::Invalid { offset })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// Every action there is, in a fixed order.
+    fn every_action() -> Vec<Action> {
+        let advances = i8::MIN..=i8::MAX;
+        let moves = TURNS.into_iter().flat_map(|turn| {
+            advances
+                .clone()
+                .map(move |advance| Action::Move { turn, advance })
+        });
+        moves.chain([Action::Reset]).collect()
+    }
+
+    #[test]
+    fn every_action_comes_back() {
+        let mut transcript = Transcript::default();
+        for action in every_action() {
+            transcript.push(action);
+        }
+        assert!(transcript.actions().eq(every_action()));
+        let bytes = transcript.to_bytes();
+        assert_eq!(bytes.len(), 2 + 1 + 3 * 84 + 2 * 3 * (256 - 84));
+        assert_eq!(Transcript::from_bytes(&bytes), Ok(transcript.clone()));
+        assert_eq!(transcript.digest(), Digest::of(&bytes));
+    }
+
+    #[test]
+    fn every_fault_comes_back() {
+        for kind in FaultKind::ALL {
+            for phase in Phase::ALL {
+                let mut transcript = Transcript::default();
+                transcript.push(Action::Reset);
+                transcript.end_with_fault(kind, phase, "d\u{e9}tail".to_owned());
+                let bytes = transcript.to_bytes();
+                assert_eq!(Transcript::from_bytes(&bytes), Ok(transcript));
+                for length in 0..bytes.len() - 1 {
+                    let cut = Transcript::from_bytes(&bytes[..length]);
+                    assert_eq!(cut, Err(TranscriptError::Truncated), "{length} bytes");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn invalid_bytes_are_named() {
+        use TranscriptError::{Invalid, Truncated, Version};
+        for (bytes, expected) in [
+            (&[][..], Truncated),
+            (&[2, 0], Version(2)),
+            (&[1, 15], Invalid { offset: 1 }),
+            (&[1, 1, 4, 0, 0, 0, 0], Invalid { offset: 2 }),
+            (&[1, 1, 0, 2, 0, 0, 0, b'a', 0xff], Invalid { offset: 8 }),
+            (&[1, 1, 0, 255, 255, 255, 255], Truncated),
+            (&[1, 0, 0, 1], Truncated),
+            // 3 fits the short form, so the long form is not an encoding of it.
+            (&[1, 0, 0, 1, 3], Invalid { offset: 3 }),
+        ] {
+            assert_eq!(Transcript::from_bytes(bytes), Err(expected), "{bytes:?}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn what_can_be_read_is_written_the_same(bytes: Vec<u8>) {
+            for bytes in [bytes.clone(), [&[1, 0][..], &bytes].concat()] {
+                if let Ok(transcript) = Transcript::from_bytes(&bytes) {
+                    prop_assert_eq!(transcript.to_bytes(), bytes);
+                }
+            }
+        }
+    }
+}

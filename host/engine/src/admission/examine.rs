@@ -1,0 +1,105 @@
+//! [`examine`]: what is decided about a file before it is compiled.
+//!
+//! A pure function of the bytes and the limits, without an engine: the same code examines a
+//! file in this process and in a compile worker.
+
+use std::borrow::Cow;
+
+use super::binary::{self, BinaryKind};
+use super::componentize::{ComponentizeError, componentize};
+use super::names::{CONTROLLER, is_known_import};
+use super::precheck::{Shape, precheck};
+use super::rejection::Rejection;
+use crate::limits::Limits;
+
+/// What is known of a file without compiling it.
+#[derive(Debug)]
+pub struct Examination<'a> {
+    /// What the file is; `None` when it is not WebAssembly.
+    pub kind: Option<BinaryKind>,
+    /// Imports, exports and measures of the component; `None` when they cannot be read, or
+    /// exceed a limit.
+    pub shape: Option<Shape>,
+    /// The component, ready to be compiled: the file's bytes, or what was made of a core
+    /// module. Else the reason why the file is rejected.
+    pub component: Result<Cow<'a, [u8]>, Rejection>,
+}
+
+/// Examines a file for admission.
+///
+/// ```
+/// use wasmouse_engine::Limits;
+/// use wasmouse_engine::admission::{Rejection, examine};
+///
+/// let examination = examine(b"hello", &Limits::default());
+/// assert_eq!(examination.kind, None);
+/// assert!(matches!(examination.component, Err(Rejection::NotWasm(_))));
+/// ```
+pub fn examine<'a>(bytes: &'a [u8], limits: &Limits) -> Examination<'a> {
+    let kind = match BinaryKind::of(bytes) {
+        BinaryKind::Other => None,
+        kind => Some(kind),
+    };
+    let mut shape = None;
+    let component = check_size(bytes, limits).and_then(|()| {
+        let component = component(bytes, limits)?;
+        let read = precheck(&component, limits)?;
+        let names = check_names(&read);
+        shape = Some(read);
+        names.map(|()| component)
+    });
+    Examination {
+        kind,
+        shape,
+        component,
+    }
+}
+
+/// Rejects a file by its size alone, which is all that a process may do with untrusted bytes
+/// that must not even parse them.
+///
+/// # Errors
+///
+/// When the file is empty or too large.
+pub(crate) fn check_size(bytes: &[u8], limits: &Limits) -> Result<(), Rejection> {
+    let max = limits.admission.component_bytes_max;
+    if bytes.is_empty() {
+        Err(Rejection::Empty)
+    } else if u64::try_from(bytes.len()).unwrap_or(u64::MAX) > max {
+        Err(Rejection::TooLarge { max })
+    } else {
+        Ok(())
+    }
+}
+
+fn component<'a>(bytes: &'a [u8], limits: &Limits) -> Result<Cow<'a, [u8]>, Rejection> {
+    match BinaryKind::of(bytes) {
+        BinaryKind::Other => Err(Rejection::NotWasm(binary::look_alike(bytes))),
+        BinaryKind::Component => Ok(Cow::Borrowed(bytes)),
+        BinaryKind::CoreModule => {
+            precheck(bytes, limits).map_err(in_core_module)?;
+            Ok(Cow::Owned(componentize(bytes)?))
+        }
+    }
+}
+
+/// An invalid core module has a rejection of its own.
+fn in_core_module(rejection: Rejection) -> Rejection {
+    match rejection {
+        Rejection::Invalid(message) => ComponentizeError::Malformed { message }.into(),
+        other => other,
+    }
+}
+
+/// Checks imports and exports by name, so that the rejection can say what to do; their types
+/// are checked when the component is linked.
+fn check_names(shape: &Shape) -> Result<(), Rejection> {
+    let unknown = |name: &&String| !is_known_import(name);
+    if let Some(name) = shape.imports.iter().find(unknown) {
+        return Err(Rejection::UnknownImport(name.clone()));
+    }
+    if !shape.exports.iter().any(|name| name == CONTROLLER) {
+        return Err(Rejection::NoController(shape.exports.clone()));
+    }
+    Ok(())
+}

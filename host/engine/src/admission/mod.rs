@@ -1,0 +1,26 @@
+//! Admission: whether a file can be a robot, decided before anything of it is compiled.
+//!
+//! [`examine`] is the one function that looks at a file, whoever calls it. [`precheck`]
+//! measures a file so that compiling it is known to end; [`componentize`] turns a core module
+//! into a component. A file that fails is rejected with a [`Rejection`], which says why and
+//! what to do.
+
+mod binary;
+mod componentize;
+mod examine;
+mod inspection;
+mod names;
+mod place;
+pub mod precheck;
+mod rejection;
+
+pub use binary::BinaryKind;
+pub use componentize::{
+    CONTROLLER_EXPORTS, ComponentizeError, JOURNAL_IMPORT, ROBOT_WIT, componentize,
+};
+pub(crate) use examine::check_size;
+pub use examine::{Examination, examine};
+pub use inspection::{Inspection, ResourceRequirements, world};
+pub(crate) use names::{CONTROLLER, JOURNAL};
+pub use place::{FunctionPlace, Place};
+pub use rejection::Rejection;

@@ -1,0 +1,375 @@
+//! [`Measure`]: what is measured in a file before it is compiled, and [`Measures`]: the
+//! values found.
+
+use serde::{Deserialize, Serialize};
+
+use super::super::place::Place;
+use super::super::rejection::Rejection;
+use crate::limits::Limits;
+
+/// Something that a file may have too much of. Each has its limit in
+/// [`Limits`], which says what attack it stops.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// Core instances, all components in it instantiated.
+    CoreInstances,
+    /// Linear memories of all core instances.
+    Memories,
+    /// Initial bytes of the largest linear memory; what all have together is limited
+    /// in the match.
+    MemoryBytes,
+    /// Tables of all core instances.
+    Tables,
+    /// Initial elements of the largest table; what all have together is limited in
+    /// the match.
+    TableElements,
+    /// Components inside each other.
+    ComponentDepth,
+    /// Items of components, as written in the file.
+    ComponentItems,
+    /// Items of components, with all components instantiated.
+    ExpandedItems,
+    /// Values in the types that pass from component to component.
+    AdapterValues,
+    /// Parts of the types that a component names, with all that they contain.
+    TypeParts,
+    /// The longest name of an import or export, in bytes.
+    NameBytes,
+    /// Custom sections in the whole file.
+    CustomSections,
+    /// The most items of one kind in one core module.
+    ModuleItems,
+    /// Function types in one core module.
+    FunctionTypes,
+    /// Functions in the whole file.
+    Functions,
+    /// Parameters and results of one function or block.
+    Values,
+    /// The longest constant expression, in bytes.
+    ConstBytes,
+    /// Locals of one function, with its parameters.
+    Locals,
+    /// The longest function, in bytes.
+    FunctionBytes,
+    /// Constructs (`block`, `loop`, `if`) inside each other in one function.
+    Nesting,
+    /// Loops inside each other in one function.
+    LoopNesting,
+    /// Values on the operand stack at the same time.
+    Operands,
+    /// Targets of one `br_table`.
+    BranchTargets,
+    /// Blocks that one function is compiled to.
+    Blocks,
+    /// Cells of the table "value of a variable in a block" of one function.
+    Cells,
+    /// Arguments that branches carry in one function.
+    Carried,
+    /// Estimated memory to compile one function, in MiB.
+    FunctionMemory,
+    /// Estimated time to compile one function, in milliseconds.
+    FunctionWork,
+    /// Estimated time to compile the file, in milliseconds.
+    Work,
+}
+
+/// One row: the measure, how it is called in JSON and in a rejection, its limit.
+struct Row {
+    measure: Measure,
+    name: &'static str,
+    what: &'static str,
+    max: fn(&Limits) -> u64,
+}
+
+/// In the order of [`Measure`]; a test holds that.
+const ROWS: [Row; Measure::COUNT] = {
+    use Measure as M;
+    const fn row(
+        measure: Measure,
+        name: &'static str,
+        what: &'static str,
+        max: fn(&Limits) -> u64,
+    ) -> Row {
+        Row {
+            measure,
+            name,
+            what,
+            max,
+        }
+    }
+    [
+        row(M::CoreInstances, "core_instances", "core instances", |l| {
+            l.admission.core_instances_max.into()
+        }),
+        row(M::Memories, "memories", "linear memories", |l| {
+            l.admission.memories_max.into()
+        }),
+        row(
+            M::MemoryBytes,
+            "memory_bytes",
+            "bytes of one linear memory at the start",
+            |l| l.sandbox.memory_bytes_max,
+        ),
+        row(M::Tables, "tables", "tables", |l| {
+            l.admission.tables_max.into()
+        }),
+        row(
+            M::TableElements,
+            "table_elements",
+            "elements of one table at the start",
+            |l| l.sandbox.table_elements_max,
+        ),
+        row(
+            M::ComponentDepth,
+            "component_depth",
+            "components inside each other",
+            |l| l.admission.component_depth_max.into(),
+        ),
+        row(
+            M::ComponentItems,
+            "component_items",
+            "component items",
+            |l| l.admission.component_items_max.into(),
+        ),
+        row(
+            M::ExpandedItems,
+            "expanded_items",
+            "component items after instantiation",
+            |l| l.admission.expanded_items_max.into(),
+        ),
+        row(
+            M::AdapterValues,
+            "adapter_values",
+            "values in the types of lowered functions",
+            |l| l.admission.adapter_values_max.into(),
+        ),
+        row(
+            M::TypeParts,
+            "type_parts",
+            "parts in a component type",
+            |l| l.admission.type_parts_max.into(),
+        ),
+        row(M::NameBytes, "name_bytes", "bytes in a name", |l| {
+            l.admission.name_bytes_max.into()
+        }),
+        row(
+            M::CustomSections,
+            "custom_sections",
+            "custom sections",
+            |l| l.admission.custom_sections_max.into(),
+        ),
+        row(
+            M::ModuleItems,
+            "module_items",
+            "items of one kind in a core module",
+            |l| l.admission.module_items_max.into(),
+        ),
+        row(
+            M::FunctionTypes,
+            "function_types",
+            "function types in a core module",
+            |l| l.admission.function_types_max.into(),
+        ),
+        row(M::Functions, "functions", "functions", |l| {
+            l.admission.functions_max.into()
+        }),
+        row(
+            M::Values,
+            "values",
+            "parameters and results of one function or block",
+            |l| l.admission.values_max.into(),
+        ),
+        row(
+            M::ConstBytes,
+            "const_bytes",
+            "bytes in a constant expression",
+            |l| l.admission.const_bytes_max.into(),
+        ),
+        row(M::Locals, "locals", "locals in a function", |l| {
+            l.admission.locals_max.into()
+        }),
+        row(
+            M::FunctionBytes,
+            "function_bytes",
+            "bytes in a function",
+            |l| l.admission.function_bytes_max.into(),
+        ),
+        row(M::Nesting, "nesting", "blocks inside each other", |l| {
+            l.admission.nesting_max.into()
+        }),
+        row(
+            M::LoopNesting,
+            "loop_nesting",
+            "loops inside each other",
+            |l| l.admission.loop_nesting_max.into(),
+        ),
+        row(
+            M::Operands,
+            "operands",
+            "values on the operand stack",
+            |l| l.admission.operands_max.into(),
+        ),
+        row(
+            M::BranchTargets,
+            "branch_targets",
+            "targets in a branch table",
+            |l| l.admission.branch_targets_max.into(),
+        ),
+        row(
+            M::Blocks,
+            "blocks",
+            "blocks of control flow in a function",
+            |l| l.admission.blocks_max.into(),
+        ),
+        row(
+            M::Cells,
+            "cells",
+            "variables times blocks in a function",
+            |l| l.admission.cells_max,
+        ),
+        row(
+            M::Carried,
+            "carried",
+            "values carried by the branches of a function",
+            |l| l.admission.carried_max.into(),
+        ),
+        row(
+            M::FunctionMemory,
+            "function_memory_mib",
+            "MiB of estimated memory to compile a function",
+            |l| l.admission.function_memory_mib_max.into(),
+        ),
+        row(
+            M::FunctionWork,
+            "function_work_ms",
+            "ms of estimated time to compile a function",
+            |l| l.admission.function_work_ms_max.into(),
+        ),
+        row(
+            M::Work,
+            "work_ms",
+            "ms of estimated time to compile the file",
+            |l| l.admission.work_ms_max.into(),
+        ),
+    ]
+};
+
+impl Measure {
+    const COUNT: usize = Self::Work as usize + 1;
+
+    /// Every measure, in the order of this enum.
+    pub fn all() -> impl Iterator<Item = Self> {
+        ROWS.iter().map(|row| row.measure)
+    }
+
+    const fn row(self) -> &'static Row {
+        &ROWS[self as usize]
+    }
+
+    /// Its name in JSON.
+    pub const fn name(self) -> &'static str {
+        self.row().name
+    }
+
+    /// What it counts, as the words after a number.
+    pub const fn what(self) -> &'static str {
+        self.row().what
+    }
+
+    /// Its limit.
+    pub fn max(self, limits: &Limits) -> u64 {
+        (self.row().max)(limits)
+    }
+}
+
+/// The greatest value found of each measure.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Measures([u64; Measure::COUNT]);
+
+impl Measures {
+    /// The greatest value found.
+    pub const fn get(&self, measure: Measure) -> u64 {
+        self.0[measure as usize]
+    }
+}
+
+/// Compares what is found with the limits.
+pub(super) struct Gauge<'a> {
+    limits: &'a Limits,
+    found: Measures,
+}
+
+impl<'a> Gauge<'a> {
+    pub(super) fn new(limits: &'a Limits) -> Self {
+        Self {
+            limits,
+            found: Measures::default(),
+        }
+    }
+
+    pub(super) const fn found(&self) -> &Measures {
+        &self.found
+    }
+
+    /// Notes a value.
+    ///
+    /// # Errors
+    ///
+    /// [`Rejection::OverLimit`] when it is above the limit.
+    pub(super) fn note(
+        &mut self,
+        measure: Measure,
+        found: u64,
+        byte: u64,
+    ) -> Result<(), Rejection> {
+        let greatest = &mut self.found.0[measure as usize];
+        *greatest = found.max(*greatest);
+        let max = measure.max(self.limits);
+        if found <= max {
+            return Ok(());
+        }
+        Err(Rejection::OverLimit {
+            what: measure.what(),
+            found,
+            max,
+            at: Place::at(byte),
+        })
+    }
+
+    /// Adds to a value that is a sum over the file.
+    ///
+    /// # Errors
+    ///
+    /// [`Rejection::OverLimit`] when the sum is above the limit.
+    pub(super) fn add(&mut self, measure: Measure, more: u64, byte: u64) -> Result<(), Rejection> {
+        let sum = self.found.get(measure).saturating_add(more);
+        self.note(measure, sum, byte)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::place::FunctionPlace;
+    use super::*;
+
+    #[test]
+    fn rows_stand_in_the_order_of_the_measures() {
+        for (position, row) in ROWS.iter().enumerate() {
+            assert_eq!(row.measure as usize, position, "{}", row.name);
+        }
+        assert_eq!(Measure::all().count(), Measure::COUNT);
+    }
+
+    #[test]
+    fn places_are_told_from_the_outside_inwards() {
+        let mut place = Place::at(12);
+        assert_eq!(place.to_string(), "byte 12");
+        place.function = Some(FunctionPlace {
+            index: 3,
+            name: Some("f".into()),
+        });
+        assert_eq!(place.to_string(), "function 3 `f`, byte 12");
+        place.module = Some(1);
+        assert_eq!(place.to_string(), "core module 1, function 3 `f`, byte 12");
+    }
+}

@@ -1,0 +1,137 @@
+//! [`Rejection`]: why a file is not admitted as a robot, with what to do about it.
+
+use super::componentize::ComponentizeError;
+use super::names::{CONTROLLER, list};
+use super::place::Place;
+
+/// Why a file was not admitted. Says nothing about how the robot would play.
+#[derive(Debug, thiserror::Error)]
+pub enum Rejection {
+    /// The file has no bytes.
+    #[error("the file is empty")]
+    Empty,
+    /// The file is larger than the ruleset allows.
+    #[error("the file has more than {max} bytes")]
+    TooLarge {
+        /// The limit in bytes.
+        max: u64,
+    },
+    /// The file is something else than a WebAssembly binary.
+    #[error("the file is not a WebAssembly component: it looks like {0}")]
+    NotWasm(&'static str),
+    /// A core module that cannot be turned into a component.
+    #[error(transparent)]
+    CoreModule(#[from] ComponentizeError),
+    /// The file is malformed, or uses a proposal that is turned off.
+    #[error("the component is not valid: {0}")]
+    Invalid(String),
+    /// The component asks for something that a robot does not get.
+    #[error("the component imports `{0}`, which a robot does not get")]
+    UnknownImport(String),
+    /// The component does not export the controller.
+    #[error("the component does not export `{CONTROLLER}`; it exports {exports}", exports = list(.0))]
+    NoController(Vec<String>),
+    /// An import or export has another type than in the WIT.
+    #[error("the component does not fit the world `robot`: {0}")]
+    WrongType(String),
+    /// Its compilation took too much, or ended the process that compiled it.
+    #[error("compiling the component {0}")]
+    Uncompilable(String),
+    /// What a worker process reported.
+    #[error("{reason}")]
+    Reported {
+        /// As [`Rejection::name`] there.
+        name: String,
+        /// The message.
+        reason: String,
+        /// As [`Rejection::hint`] there.
+        hint: String,
+    },
+    /// The file holds more than the ruleset allows, before anything of it runs.
+    #[error("the file has {found} {what}, and the limit is {max} ({at})")]
+    OverLimit {
+        /// What is counted, as the words after a number.
+        what: &'static str,
+        /// The value found up to that place; the whole file may have more.
+        found: u64,
+        /// The limit.
+        max: u64,
+        /// Where.
+        at: Place,
+    },
+}
+
+impl Rejection {
+    /// A short name as in JSON: lowercase letters and hyphens.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Empty => "empty",
+            Self::TooLarge { .. } => "too-large",
+            Self::NotWasm(_) => "not-wasm",
+            Self::CoreModule(_) => "core-module",
+            Self::Invalid(_) => "invalid",
+            Self::UnknownImport(_) => "unknown-import",
+            Self::NoController(_) => "no-controller",
+            Self::WrongType(_) => "wrong-type",
+            Self::OverLimit { .. } => "over-limit",
+            Self::Uncompilable(_) => "uncompilable",
+            Self::Reported { name, .. } => name,
+        }
+    }
+
+    /// What the author can do.
+    pub fn hint(&self) -> &str {
+        match self {
+            Self::Empty | Self::NotWasm(_) => {
+                "a robot is a WebAssembly component (.wasm); `wasmouse build` makes one of a Rust \
+                 crate or a core module"
+            }
+            Self::TooLarge { .. } => {
+                "build in release mode, without debug information (`strip = \"debuginfo\"`)"
+            }
+            Self::CoreModule(_) => {
+                "build the module against `wit/robot.wit` (in Rust: the crate `wasmouse-sdk`)"
+            }
+            Self::Invalid(_) => {
+                "rebuild it with a released toolchain and without experimental proposals"
+            }
+            Self::UnknownImport(name) if name.starts_with("wasi:") => {
+                "robots have no clock, files, randomness or network: build for \
+                 `wasm32-unknown-unknown` instead of a WASI target, or stub WASI out \
+                 (`--stub-wasi` in componentize-py, `--backend-qjs-stub-wasi` in jco)"
+            }
+            Self::UnknownImport(_) => {
+                "a robot may import `wasmouse:robot/journal@0.1.0` and nothing else"
+            }
+            Self::NoController(_) => {
+                "export the interface `controller` of `wit/robot.wit`; in Rust, call \
+                 `export_robot!` in the crate's root"
+            }
+            Self::WrongType(_) => "rebuild it against this version's `wit/robot.wit`",
+            Self::Uncompilable(_) => {
+                "build it in release mode, as smaller functions with fewer local variables"
+            }
+            Self::Reported { hint, .. } => hint,
+            Self::OverLimit { .. } => {
+                "`wasmouse inspect` shows every measure of a robot beside its limit; generated code \
+                 and unrolled tables are better written as loops over data"
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_lists_of_names_end() {
+        let names: Vec<String> = (1..=20).map(|number| format!("e{number}")).collect();
+        let told = Rejection::NoController(names).to_string();
+        assert!(
+            told.ends_with("it exports `e1`, `e2`, `e3`, `e4`, `e5`, `e6`, `e7`, `e8`, 12 more")
+        );
+        let told = Rejection::NoController(Vec::new()).to_string();
+        assert!(told.ends_with("it exports nothing"), "{told}");
+    }
+}

@@ -1,0 +1,513 @@
+//! [`Executor`]: one way to admit robots and play matches, wherever they run.
+//!
+//! [`InProcess`] runs robots in this process, [`Sandboxed`] in worker processes;
+//! [`LocalExecutor`] chooses between them by trust. Records are the same bytes either way.
+
+use std::ops::ControlFlow;
+use std::sync::{Arc, OnceLock};
+
+use wasmouse_core::Digest;
+use wasmouse_core::game::{Fault, Ruleset};
+use wasmouse_core::record::{MatchRecord, MatchSpec, Transcript};
+
+use crate::admission::{Inspection, Rejection, examine, world};
+use crate::error::InfrastructureError;
+use crate::limits::Limits;
+use crate::runner::Recording;
+use crate::runtime::{Cache, CacheUse, CompiledRobot, Frame, Runtime};
+use crate::sandbox::{SandboxStatus, SandboxedRobot, Supervisor, WorkerOptions};
+
+/// A match that was played.
+#[derive(Debug)]
+pub struct Played<'a> {
+    /// What came of it.
+    pub record: MatchRecord,
+    /// The robot's actions.
+    pub transcript: &'a Transcript,
+}
+
+/// Gets what came of each match of a batch, in order, and says whether to go on. A match that
+/// the host could not play says nothing about the robot, and has to be played another time.
+pub type Sink<'a> =
+    dyn FnMut(&MatchSpec, Result<Played<'_>, InfrastructureError>) -> ControlFlow<()> + 'a;
+
+/// A match with everything that the robot left behind.
+#[derive(Debug)]
+pub struct DetailedMatch {
+    /// What came of it.
+    pub record: MatchRecord,
+    /// The robot's actions, its journal, and the fuel of each step.
+    pub recording: Recording,
+}
+
+/// Admits robots and plays matches.
+pub trait Executor: Sync {
+    /// Admits the bytes of a component, or of a core module that can be turned into one, as a
+    /// robot.
+    ///
+    /// # Errors
+    ///
+    /// When the host fails; the inner error is the reason why the file is rejected.
+    fn admit(&self, file: &[u8]) -> Result<Result<AdmittedRobot, Rejection>, InfrastructureError>;
+
+    /// Examines a file as [`Executor::admit`] does, and reports everything.
+    ///
+    /// # Errors
+    ///
+    /// When the host fails.
+    fn inspect(&self, file: &[u8]) -> Result<Inspection, InfrastructureError>;
+
+    /// Plays matches of one robot, in order, and passes each to the sink as it ends. Stops
+    /// when the sink breaks.
+    fn execute(
+        &self,
+        robot: &AdmittedRobot,
+        batch: &[MatchSpec],
+        sink: &mut Sink<'_>,
+    ) -> ControlFlow<()>;
+
+    /// Plays one match and keeps the robot's journal and the fuel of each step.
+    ///
+    /// # Errors
+    ///
+    /// When the host fails.
+    fn execute_with_details(
+        &self,
+        robot: &AdmittedRobot,
+        spec: &MatchSpec,
+    ) -> Result<DetailedMatch, InfrastructureError>;
+
+    /// The calls in progress when a robot fails in that match, most recent first; `None` when
+    /// that cannot be found out. `file` is what was admitted.
+    ///
+    /// # Errors
+    ///
+    /// When the host fails.
+    fn backtrace(
+        &self,
+        robot: &AdmittedRobot,
+        file: &[u8],
+        spec: &MatchSpec,
+        fault: &Fault,
+    ) -> Result<Option<Vec<Frame>>, InfrastructureError>;
+}
+
+/// A robot that an executor has admitted, and that only this executor can play.
+pub struct AdmittedRobot(Handle);
+
+enum Handle {
+    InProcess(Box<CompiledRobot>),
+    Sandboxed(SandboxedRobot),
+}
+
+impl AdmittedRobot {
+    /// The digest of the file that was admitted.
+    pub const fn digest(&self) -> &Digest {
+        match &self.0 {
+            Handle::InProcess(robot) => robot.digest(),
+            Handle::Sandboxed(robot) => robot.digest(),
+        }
+    }
+
+    /// Where its compiled code came from.
+    pub const fn cache_use(&self) -> &CacheUse {
+        match &self.0 {
+            Handle::InProcess(robot) => robot.cache_use(),
+            Handle::Sandboxed(robot) => robot.cache_use(),
+        }
+    }
+
+    fn in_process(&self) -> Result<&CompiledRobot, InfrastructureError> {
+        match &self.0 {
+            Handle::InProcess(robot) => Ok(robot),
+            Handle::Sandboxed(_) => Err(InfrastructureError::ForeignRobot),
+        }
+    }
+
+    const fn sandboxed(&self) -> Result<&SandboxedRobot, InfrastructureError> {
+        match &self.0 {
+            Handle::Sandboxed(robot) => Ok(robot),
+            Handle::InProcess(_) => Err(InfrastructureError::ForeignRobot),
+        }
+    }
+}
+
+/// Runs robots in this process: for robots that are trusted.
+pub struct InProcess {
+    runtime: Runtime,
+}
+
+impl InProcess {
+    /// An executor for up to `matches` matches at the same time (at least 1), with compiled
+    /// robots kept in `cache`.
+    ///
+    /// # Errors
+    ///
+    /// When the machine cannot give address space or threads.
+    pub fn new(
+        limits: Limits,
+        matches: u32,
+        cache: Option<Cache>,
+    ) -> Result<Self, InfrastructureError> {
+        let runtime = Runtime::new(limits, matches, cache)?;
+        Ok(Self { runtime })
+    }
+
+    fn play(
+        &self,
+        robot: &CompiledRobot,
+        spec: &MatchSpec,
+        recording: &mut Recording,
+    ) -> Result<MatchRecord, InfrastructureError> {
+        let (result, fuel) = self.runtime.run(robot, spec, recording)?;
+        let journal = recording.journal.counts();
+        Ok(MatchRecord::new(
+            spec.key,
+            result,
+            fuel,
+            journal,
+            &recording.transcript,
+        ))
+    }
+}
+
+impl Executor for InProcess {
+    fn admit(&self, file: &[u8]) -> Result<Result<AdmittedRobot, Rejection>, InfrastructureError> {
+        let admitted = self.runtime.admit(file);
+        Ok(admitted.map(|robot| AdmittedRobot(Handle::InProcess(Box::new(robot)))))
+    }
+
+    fn inspect(&self, file: &[u8]) -> Result<Inspection, InfrastructureError> {
+        let examination = examine(file, self.runtime.limits());
+        let mut inspection = Inspection::new(file);
+        inspection.kind = examination.kind;
+        inspection.shape = examination.shape;
+        let admitted = examination.component.and_then(|component| {
+            inspection.wit = world(&component);
+            self.runtime.admit(file)
+        });
+        match admitted {
+            Ok(robot) => inspection.requirements = robot.requirements(),
+            Err(rejection) => inspection.rejection = Some(rejection),
+        }
+        Ok(inspection)
+    }
+
+    fn execute(
+        &self,
+        robot: &AdmittedRobot,
+        batch: &[MatchSpec],
+        sink: &mut Sink<'_>,
+    ) -> ControlFlow<()> {
+        let mut recording = Recording::default();
+        batch.iter().try_for_each(|spec| {
+            let mut play = || self.play(robot.in_process()?, spec, &mut recording);
+            // A failure of the host may be a passing one.
+            let played = play().or_else(|_| play()).map(|record| Played {
+                record,
+                transcript: &recording.transcript,
+            });
+            sink(spec, played)
+        })
+    }
+
+    fn execute_with_details(
+        &self,
+        robot: &AdmittedRobot,
+        spec: &MatchSpec,
+    ) -> Result<DetailedMatch, InfrastructureError> {
+        let mut recording = Recording::default();
+        let record = self.play(robot.in_process()?, spec, &mut recording)?;
+        Ok(DetailedMatch { record, recording })
+    }
+
+    fn backtrace(
+        &self,
+        _: &AdmittedRobot,
+        file: &[u8],
+        spec: &MatchSpec,
+        fault: &Fault,
+    ) -> Result<Option<Vec<Frame>>, InfrastructureError> {
+        let runtime = Runtime::for_backtraces(*self.runtime.limits())?;
+        runtime.clock().start()?;
+        let Ok(robot) = runtime.admit(file) else {
+            return Ok(None);
+        };
+        let mut recording = Recording::default();
+        let (result, _) = runtime.run(&robot, spec, &mut recording)?;
+        Ok(match result.verdict.fault() {
+            Some(again) if again == fault => Some(recording.frames),
+            _ => None,
+        })
+    }
+}
+
+/// Runs robots in sandboxed worker processes: for robots that are not trusted.
+pub struct Sandboxed {
+    supervisor: Supervisor,
+}
+
+impl Sandboxed {
+    /// An executor for matches by these rules, with compiled robots kept in `cache`. Starts the
+    /// first worker.
+    ///
+    /// # Errors
+    ///
+    /// As [`Supervisor::new`].
+    pub fn new(
+        rules: Arc<Ruleset>,
+        limits: Limits,
+        workers: WorkerOptions,
+        cache: Option<Cache>,
+    ) -> Result<Self, InfrastructureError> {
+        let supervisor = Supervisor::new(rules, limits, workers, cache)?;
+        Ok(Self { supervisor })
+    }
+
+    /// Which layers of the sandbox the workers have.
+    pub const fn sandbox(&self) -> SandboxStatus {
+        self.supervisor.sandbox()
+    }
+}
+
+impl Executor for Sandboxed {
+    fn admit(&self, file: &[u8]) -> Result<Result<AdmittedRobot, Rejection>, InfrastructureError> {
+        let admitted = self.supervisor.admit(file)?;
+        Ok(admitted.map(|robot| AdmittedRobot(Handle::Sandboxed(robot))))
+    }
+
+    fn inspect(&self, file: &[u8]) -> Result<Inspection, InfrastructureError> {
+        self.supervisor.inspect(file)
+    }
+
+    fn execute(
+        &self,
+        robot: &AdmittedRobot,
+        batch: &[MatchSpec],
+        sink: &mut Sink<'_>,
+    ) -> ControlFlow<()> {
+        let robot = match robot.sandboxed() {
+            Ok(robot) => robot,
+            Err(_) => {
+                return batch
+                    .iter()
+                    .try_for_each(|spec| sink(spec, Err(InfrastructureError::ForeignRobot)));
+            }
+        };
+        let mut specs = batch.iter();
+        let mut recording = Recording::default();
+        let mut pass_on = |played: Result<MatchRecord, InfrastructureError>, it: &Recording| {
+            let spec = specs.next().expect("one record for each match");
+            let transcript = &it.transcript;
+            sink(spec, played.map(|record| Played { record, transcript }))
+        };
+        self.supervisor
+            .play(robot, batch, &mut recording, &mut pass_on)
+    }
+
+    fn execute_with_details(
+        &self,
+        robot: &AdmittedRobot,
+        spec: &MatchSpec,
+    ) -> Result<DetailedMatch, InfrastructureError> {
+        let mut recording = Recording::default();
+        let robot = robot.sandboxed()?;
+        let record = self
+            .supervisor
+            .play_with_details(robot, spec, &mut recording)?;
+        Ok(DetailedMatch { record, recording })
+    }
+
+    fn backtrace(
+        &self,
+        _: &AdmittedRobot,
+        file: &[u8],
+        spec: &MatchSpec,
+        fault: &Fault,
+    ) -> Result<Option<Vec<Frame>>, InfrastructureError> {
+        self.supervisor.backtrace(file, spec, fault)
+    }
+}
+
+/// Whose code a robot is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Trust {
+    /// It may run in this process: a bundled robot, or one of the user's own.
+    Trusted,
+    /// It may be anything, and runs in sandboxed workers.
+    Untrusted,
+}
+
+/// Where untrusted robots run.
+#[derive(Clone, Debug)]
+pub enum Isolation {
+    /// In this process, like all others.
+    None,
+    /// In sandboxed processes.
+    Workers(WorkerOptions),
+}
+
+/// Runs trusted robots in this process and untrusted ones in workers; starts either when the
+/// first robot needs it.
+pub struct LocalExecutor {
+    rules: Arc<Ruleset>,
+    limits: Limits,
+    matches: u32,
+    cache: Option<Cache>,
+    isolation: Isolation,
+    in_process: OnceLock<InProcess>,
+    sandboxed: OnceLock<Sandboxed>,
+}
+
+impl LocalExecutor {
+    /// An executor for up to `matches` matches at the same time (at least 1), with compiled
+    /// robots kept in `cache`.
+    pub fn new(
+        rules: Arc<Ruleset>,
+        matches: u32,
+        cache: Option<Cache>,
+        isolation: Isolation,
+    ) -> Self {
+        Self {
+            limits: Limits::with_sandbox(rules.sandbox),
+            rules,
+            matches,
+            cache,
+            isolation,
+            in_process: OnceLock::new(),
+            sandboxed: OnceLock::new(),
+        }
+    }
+
+    /// The rules of all matches.
+    pub const fn rules(&self) -> &Arc<Ruleset> {
+        &self.rules
+    }
+
+    /// The limits that robots are admitted and run under.
+    pub const fn limits(&self) -> &Limits {
+        &self.limits
+    }
+
+    /// Which layers of the sandbox the workers have; `None` while there are no workers.
+    pub fn sandbox(&self) -> Option<SandboxStatus> {
+        self.sandboxed.get().map(Sandboxed::sandbox)
+    }
+
+    /// Admits a file, as [`Executor::admit`], where its trust lets it run.
+    ///
+    /// # Errors
+    ///
+    /// When the host fails; the inner error is the reason why the file is rejected.
+    ///
+    /// ```
+    /// use std::sync::Arc;
+    /// use wasmouse_core::game::Ruleset;
+    /// use wasmouse_engine::admission::Rejection;
+    /// use wasmouse_engine::{Isolation, LocalExecutor, Trust};
+    ///
+    /// let rules = Arc::new(Ruleset::default());
+    /// let executor = LocalExecutor::new(rules, 1, None, Isolation::None);
+    /// let admission = executor.admit(b"", Trust::Trusted).expect("address space");
+    /// assert!(matches!(admission, Err(Rejection::Empty)));
+    /// ```
+    pub fn admit(
+        &self,
+        file: &[u8],
+        trust: Trust,
+    ) -> Result<Result<AdmittedRobot, Rejection>, InfrastructureError> {
+        self.for_trust(trust)?.admit(file)
+    }
+
+    /// Examines a file, as [`Executor::inspect`], where its trust lets it run.
+    ///
+    /// # Errors
+    ///
+    /// When the host fails.
+    pub fn inspect(&self, file: &[u8], trust: Trust) -> Result<Inspection, InfrastructureError> {
+        self.for_trust(trust)?.inspect(file)
+    }
+
+    fn for_trust(&self, trust: Trust) -> Result<&dyn Executor, InfrastructureError> {
+        match (trust, &self.isolation) {
+            (Trust::Untrusted, Isolation::Workers(workers)) => {
+                let executor = get_or_try_init(&self.sandboxed, || {
+                    let (rules, cache) = (Arc::clone(&self.rules), self.cache.clone());
+                    Sandboxed::new(rules, self.limits, workers.clone(), cache)
+                })?;
+                Ok(executor)
+            }
+            (Trust::Trusted, _) | (_, Isolation::None) => {
+                let executor = get_or_try_init(&self.in_process, || {
+                    InProcess::new(self.limits, self.matches, self.cache.clone())
+                })?;
+                Ok(executor)
+            }
+        }
+    }
+
+    /// The executor that admitted a robot.
+    fn of(&self, robot: &AdmittedRobot) -> Result<&dyn Executor, InfrastructureError> {
+        let executor: Option<&dyn Executor> = match robot.0 {
+            Handle::InProcess(_) => self.in_process.get().map(|it| it as _),
+            Handle::Sandboxed(_) => self.sandboxed.get().map(|it| it as _),
+        };
+        executor.ok_or(InfrastructureError::ForeignRobot)
+    }
+}
+
+impl Executor for LocalExecutor {
+    /// Admits a file as an untrusted one.
+    fn admit(&self, file: &[u8]) -> Result<Result<AdmittedRobot, Rejection>, InfrastructureError> {
+        self.admit(file, Trust::Untrusted)
+    }
+
+    /// Examines a file as an untrusted one.
+    fn inspect(&self, file: &[u8]) -> Result<Inspection, InfrastructureError> {
+        self.inspect(file, Trust::Untrusted)
+    }
+
+    fn execute(
+        &self,
+        robot: &AdmittedRobot,
+        batch: &[MatchSpec],
+        sink: &mut Sink<'_>,
+    ) -> ControlFlow<()> {
+        match self.of(robot) {
+            Ok(executor) => executor.execute(robot, batch, sink),
+            Err(_) => batch
+                .iter()
+                .try_for_each(|spec| sink(spec, Err(InfrastructureError::ForeignRobot))),
+        }
+    }
+
+    fn execute_with_details(
+        &self,
+        robot: &AdmittedRobot,
+        spec: &MatchSpec,
+    ) -> Result<DetailedMatch, InfrastructureError> {
+        self.of(robot)?.execute_with_details(robot, spec)
+    }
+
+    fn backtrace(
+        &self,
+        robot: &AdmittedRobot,
+        file: &[u8],
+        spec: &MatchSpec,
+        fault: &Fault,
+    ) -> Result<Option<Vec<Frame>>, InfrastructureError> {
+        self.of(robot)?.backtrace(robot, file, spec, fault)
+    }
+}
+
+fn get_or_try_init<T>(
+    cell: &OnceLock<T>,
+    init: impl FnOnce() -> Result<T, InfrastructureError>,
+) -> Result<&T, InfrastructureError> {
+    if let Some(value) = cell.get() {
+        return Ok(value);
+    }
+    // Two threads may both get here; one of the two values is dropped again.
+    let value = init()?;
+    Ok(cell.get_or_init(|| value))
+}

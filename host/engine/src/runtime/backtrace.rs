@@ -1,0 +1,130 @@
+//! [`Frame`]: where in its code a robot was when it failed.
+//!
+//! Only an engine made for it gathers frames ([`Runtime::for_backtraces`](super::Runtime)), so an
+//! ordinary match pays nothing. Names and places come from the robot's own name section
+//! and DWARF debug information: they are text that is untrusted, cut to a length here and
+//! escaped by whoever shows them.
+
+use serde::{Deserialize, Serialize};
+use wasmtime::{FrameInfo, FrameSymbol, WasmBacktrace};
+
+/// Frames that are told, from the innermost.
+pub(crate) const FRAMES_MAX: usize = 40;
+
+/// Characters of a name or place that are told.
+const TEXT_CHARS_MAX: usize = 160;
+
+/// Characters of a mangled name that are looked at: more than are told, because the
+/// mangled name is longer, and no name can be made out from a part of it.
+const MANGLED_CHARS_MAX: usize = 2000;
+
+/// One call in progress.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Frame {
+    /// The function: its name, or else its index.
+    pub function: String,
+    /// The byte in the module's file, when known.
+    pub offset: Option<u64>,
+    /// The file, line and column of the source code, as `src/lib.rs:12:5`, when the robot
+    /// has debug information.
+    pub source: Option<String>,
+}
+
+/// The frames of an error of a call, the innermost first; none when the engine gathers
+/// none.
+pub(crate) fn frames(error: &wasmtime::Error) -> Vec<Frame> {
+    let Some(backtrace) = error.downcast_ref::<WasmBacktrace>() else {
+        return Vec::new();
+    };
+    let calls = backtrace.frames().iter().flat_map(Frame::of_call);
+    calls.take(FRAMES_MAX).collect()
+}
+
+impl Frame {
+    /// The frames of one call of compiled code: debug information knows the functions
+    /// that the compiler inlined into it, the innermost first.
+    fn of_call(info: &FrameInfo) -> Vec<Self> {
+        let symbols = info.symbols();
+        if symbols.is_empty() {
+            return vec![Self::new(info, None)];
+        }
+        let frames = symbols.iter().take(FRAMES_MAX);
+        frames.map(|it| Self::new(info, Some(it))).collect()
+    }
+
+    fn new(info: &FrameInfo, symbol: Option<&FrameSymbol>) -> Self {
+        let named = symbol.and_then(FrameSymbol::name).or(info.func_name());
+        let function = match named {
+            Some(name) => format!(
+                "{:#}",
+                rustc_demangle::demangle(cut(name, MANGLED_CHARS_MAX))
+            ),
+            None => format!("function {}", info.func_index()),
+        };
+        Self {
+            function: cut(&function, TEXT_CHARS_MAX).to_owned(),
+            offset: info.module_offset().and_then(|at| u64::try_from(at).ok()),
+            source: symbol.and_then(source),
+        }
+    }
+
+    /// The frame as it may have come from a worker that is not itself any more.
+    pub(crate) fn checked(self) -> Self {
+        Self {
+            function: cut(&self.function, TEXT_CHARS_MAX).to_owned(),
+            source: self.source.map(|it| cut(&it, TEXT_CHARS_MAX).to_owned()),
+            ..self
+        }
+    }
+}
+
+/// A place in source code, when its file is known.
+fn source(symbol: &FrameSymbol) -> Option<String> {
+    let mut place = cut_front(symbol.file()?).to_owned();
+    for number in [symbol.line(), symbol.column()] {
+        match number {
+            Some(number) => place.push_str(&format!(":{number}")),
+            None => break,
+        }
+    }
+    Some(place)
+}
+
+/// The last characters of a path, which tell more than the first; with room for a line and
+/// a column.
+fn cut_front(path: &str) -> &str {
+    let wanted = TEXT_CHARS_MAX - ":4294967295:4294967295".len();
+    match path.char_indices().nth_back(wanted) {
+        Some((last_cut, character)) => &path[last_cut + character.len_utf8()..],
+        None => path,
+    }
+}
+
+/// The first characters of a text.
+fn cut(name: &str, chars_max: usize) -> &str {
+    match name.char_indices().nth(chars_max) {
+        Some((end, _)) => &name[..end],
+        None => name,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_cut_between_characters() {
+        assert_eq!(cut("short", 5), "short");
+        let long = "é".repeat(TEXT_CHARS_MAX + 5);
+        assert_eq!(cut(&long, TEXT_CHARS_MAX).chars().count(), TEXT_CHARS_MAX);
+    }
+
+    #[test]
+    fn paths_keep_their_end() {
+        assert_eq!(cut_front("src/lib.rs"), "src/lib.rs");
+        let long = format!("{}/src/lib.rs", "é".repeat(TEXT_CHARS_MAX));
+        let short = cut_front(&long);
+        assert!(short.ends_with("é/src/lib.rs"));
+        assert_eq!(short.chars().count(), TEXT_CHARS_MAX - 22);
+    }
+}

@@ -1,0 +1,222 @@
+//! The wasmtime engine: one constructor, a reason beside every setting.
+//!
+//! Whether two hosts give the same verdict and the same fuel depends on this
+//! file and on the version of wasmtime alone; both are in [`engine_id`], which
+//! goes into every result.
+
+use std::num::NonZeroUsize;
+use std::thread;
+use std::time::Duration;
+
+use wasmtime::{
+    Config, Enabled, Engine, EngineWeak, InstanceAllocationStrategy, PoolingAllocationConfig,
+    WasmBacktraceDetails,
+};
+
+use wasmouse_core::record::EngineId;
+
+use super::FRAMES_MAX;
+use super::cost;
+use crate::error::InfrastructureError;
+use crate::limits::Limits;
+
+/// The exact version of wasmtime in `Cargo.toml`; a test compares the two.
+pub const WASMTIME_VERSION: &str = "48.0.8";
+
+/// Raised with every change to this file that can change fuel or a verdict.
+pub const ENGINE_REVISION: u32 = 3;
+
+/// Wall time after which a match is given up as a failure of the host, in
+/// seconds. All the fuel of the default limits lasts 2 s in a robot like flood and
+/// 25 s in work that takes ten times as long for its fuel; the rest is for slower and
+/// busier machines. What reaches this is a host that stands still, or a robot that
+/// waits for memory all the time, and it is never a verdict.
+pub const MATCH_SECONDS_MAX: u64 = 120;
+
+/// Memory that an unused slot of the pool keeps, at most, for each linear memory and
+/// each table. Compiled robots write under 100 KiB; what an interpreter writes beyond
+/// this goes back to the system.
+const RESIDENT_BYTES_MAX: usize = 1 << 20;
+
+const EPOCH: Duration = Duration::from_millis(250);
+
+/// What a result depends on besides robot, maze, ruleset and seed: the version
+/// of wasmtime and the revision of its configuration.
+pub fn engine_id() -> EngineId {
+    EngineId::new(format!(
+        "wasmtime-{WASMTIME_VERSION}+wasmouse.{ENGINE_REVISION}"
+    ))
+}
+
+/// Epochs in [`MATCH_SECONDS_MAX`].
+pub(crate) const fn match_epochs_max() -> u64 {
+    MATCH_SECONDS_MAX * 1000 / EPOCH.as_millis() as u64
+}
+
+/// The engine of a host that runs up to `matches` matches at the same time.
+///
+/// # Errors
+///
+/// When the machine cannot give the address space for the pool.
+pub(crate) fn new_engine(limits: &Limits, matches: u32) -> Result<Engine, InfrastructureError> {
+    Engine::new(&engine_config(limits, matches)).map_err(InfrastructureError::engine)
+}
+
+/// The configuration of the engine of a host, for those who want to compare the
+/// host with wasmtime alone.
+pub fn engine_config(limits: &Limits, matches: u32) -> Config {
+    let mut config = compiler_config(limits);
+    config.allocation_strategy(InstanceAllocationStrategy::Pooling(pool(limits, matches)));
+    config
+}
+
+/// An engine for one match at a time that knows, when a robot fails, where in its code
+/// it was: in names and, where it has debug information, in source lines. Fuel and
+/// verdicts are those of [`new_engine`]; its code is larger.
+///
+/// # Errors
+///
+/// When the machine cannot give the address space for the pool.
+pub(crate) fn new_backtrace_engine(limits: &Limits) -> Result<Engine, InfrastructureError> {
+    let mut config = engine_config(limits, 1);
+    config.wasm_backtrace_max_frames(NonZeroUsize::new(FRAMES_MAX));
+    config.generate_address_map(true);
+    config.wasm_backtrace_details(WasmBacktraceDetails::Enable);
+    Engine::new(&config).map_err(InfrastructureError::engine)
+}
+
+/// An engine that compiles and runs nothing: its code is that of [`new_engine`], but
+/// it has no pool, whose address space a process under a memory limit cannot have.
+///
+/// # Errors
+///
+/// When wasmtime does not know this machine.
+pub(crate) fn new_compiler(limits: &Limits) -> Result<Engine, InfrastructureError> {
+    Engine::new(&compiler_config(limits)).map_err(InfrastructureError::engine)
+}
+
+/// Everything that decides the compiled code.
+fn compiler_config(limits: &Limits) -> Config {
+    let mut config = Config::new();
+
+    // What ends a match. Fuel is exact and reproducible; epochs are the safety
+    // net for a host that stands still.
+    config.consume_fuel(true);
+    config.operator_cost(cost::operator_cost());
+    config.epoch_interruption(true);
+    config.max_wasm_stack(bytes(limits.sandbox.stack_bytes_max));
+
+    // What would make two machines differ.
+    config.cranelift_nan_canonicalization(true);
+    config.wasm_relaxed_simd(false);
+    config.wasm_threads(false);
+
+    // Proposals that no known toolchain needs for a robot: less code of
+    // wasmtime that an untrusted robot can reach. Python, JavaScript, Rust, C, Zig and
+    // AssemblyScript robots have been seen to run without them.
+    config.wasm_gc(false);
+    config.wasm_function_references(false);
+    config.wasm_exceptions(false);
+    config.wasm_memory64(false);
+    config.wasm_custom_page_sizes(false);
+    config.wasm_wide_arithmetic(false);
+    config.wasm_stack_switching(false);
+    config.gc_support(false);
+    // Nothing here is asynchronous; without it a call costs less.
+    config.concurrency_support(false);
+
+    // Backtraces come from replaying a failed match, not from every match.
+    config.wasm_backtrace_max_frames(None);
+    config.generate_address_map(false);
+    // Said, because otherwise an environment variable decides.
+    config.wasm_backtrace_details(WasmBacktraceDetails::Disable);
+    // Only needed by native profilers and unwinders.
+    config.native_unwind_info(false);
+    config
+}
+
+/// Slots for `matches` matches: instantiation then takes memory from a warm
+/// pool instead of the operating system.
+fn pool(limits: &Limits, matches: u32) -> PoolingAllocationConfig {
+    let mut pool = PoolingAllocationConfig::new();
+    pool.total_component_instances(matches);
+    pool.total_core_instances(matches.saturating_mul(limits.admission.core_instances_max));
+    pool.total_memories(matches.saturating_mul(limits.admission.memories_max));
+    pool.total_tables(matches.saturating_mul(limits.admission.tables_max));
+    pool.total_gc_heaps(0);
+    pool.max_core_instances_per_component(limits.admission.core_instances_max);
+    pool.max_memories_per_component(limits.admission.memories_max);
+    pool.max_tables_per_component(limits.admission.tables_max);
+    pool.max_memories_per_module(limits.admission.memories_max);
+    pool.max_tables_per_module(limits.admission.tables_max);
+    pool.max_memory_size(bytes(limits.sandbox.memory_bytes_max));
+    pool.table_elements(bytes(limits.sandbox.table_elements_max));
+    // Wasmtime's metadata of one component or core instance. Large interpreters
+    // need well under this.
+    pool.max_component_instance_size(1 << 20);
+    pool.max_core_instance_size(1 << 20);
+    keep_pages(&mut pool);
+    pool
+}
+
+/// Has a slot's pages wiped and kept after a match instead of given back, where the
+/// system can tell which of them were written (Linux 6.7 and later): the next match
+/// then takes no page faults, which are half the time of a short one. Elsewhere
+/// wasmtime would wipe all of them, written or not, which is slower than giving
+/// them back. What a robot finds in its memory is the same either way.
+fn keep_pages(pool: &mut PoolingAllocationConfig) {
+    if PoolingAllocationConfig::is_pagemap_scan_available() {
+        pool.pagemap_scan(Enabled::Auto);
+        pool.linear_memory_keep_resident(RESIDENT_BYTES_MAX);
+        pool.table_keep_resident(RESIDENT_BYTES_MAX);
+    }
+}
+
+fn bytes(limit: u64) -> usize {
+    usize::try_from(limit).unwrap_or(usize::MAX)
+}
+
+/// What advances the epoch for as long as the engine lives.
+pub(crate) struct Clock(EngineWeak);
+
+impl Clock {
+    /// The clock of that engine.
+    pub(crate) fn of(engine: &Engine) -> Self {
+        Self(engine.weak())
+    }
+
+    /// Starts its thread.
+    ///
+    /// # Errors
+    ///
+    /// When the machine gives no thread.
+    pub(crate) fn start(self) -> Result<(), InfrastructureError> {
+        thread::Builder::new()
+            .name("epoch-clock".into())
+            .spawn(move || {
+                while let Some(engine) = self.0.upgrade() {
+                    engine.increment_epoch();
+                    drop(engine);
+                    thread::sleep(EPOCH);
+                }
+            })
+            .map_err(InfrastructureError::Thread)?;
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_engine_id_names_the_wasmtime_in_use() {
+        let lock = include_str!("../../../../Cargo.lock");
+        let locked = format!("name = \"wasmtime\"\nversion = \"{WASMTIME_VERSION}\"");
+        assert!(
+            lock.contains(&locked),
+            "Cargo.lock does not have wasmtime {WASMTIME_VERSION}: \
+             set WASMTIME_VERSION and raise ENGINE_REVISION"
+        );
+    }
+}

@@ -1,0 +1,55 @@
+//! Whether a compiled component exports `controller` with the types of the WIT.
+//!
+//! The generated bindings look at the names of an exported interface's functions
+//! when they link and at their types only in an instance; a robot with other
+//! types would be admitted and fail in every match.
+
+use wasmtime::component::Component;
+use wasmtime::component::types::{ComponentFunc, ComponentInstance, ComponentItem};
+
+use super::bindings::types::{Action, Briefing, Sensors};
+use crate::admission::{CONTROLLER, Rejection};
+
+/// Checks the types of `start` and `next-move`.
+///
+/// # Errors
+///
+/// [`Rejection::WrongType`] with the export that differs.
+pub(crate) fn check_types(component: &Component) -> Result<(), Rejection> {
+    let engine = component.engine();
+    let component_type = component.component_type();
+    let item = component_type.get_export(engine, CONTROLLER);
+    let Some(ComponentItem::ComponentInstance(controller)) = item.map(|export| export.ty) else {
+        return Err(Rejection::WrongType(format!(
+            "`{CONTROLLER}` is not an interface"
+        )));
+    };
+    let types = component_type.instance_type();
+    let function = |name| function(component, &controller, name);
+    function("start")?
+        .typecheck::<(Briefing,), ()>(&types)
+        .map_err(|error| wrong_type("start", &error))?;
+    function("next-move")?
+        .typecheck::<(Sensors,), (Action,)>(&types)
+        .map_err(|error| wrong_type("next-move", &error))
+}
+
+fn function(
+    component: &Component,
+    controller: &ComponentInstance,
+    name: &str,
+) -> Result<ComponentFunc, Rejection> {
+    match controller.get_export(component.engine(), name) {
+        Some(export) => match export.ty {
+            ComponentItem::ComponentFunc(function) => Ok(function),
+            _ => Err(Rejection::WrongType(format!("`{name}` is not a function"))),
+        },
+        None => Err(Rejection::WrongType(format!(
+            "`{CONTROLLER}` has no function `{name}`"
+        ))),
+    }
+}
+
+fn wrong_type(name: &str, error: &wasmtime::Error) -> Rejection {
+    Rejection::WrongType(format!("the function `{name}` has another type: {error:#}"))
+}

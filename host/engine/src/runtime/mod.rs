@@ -1,0 +1,25 @@
+//! The wasmtime side: one engine configuration, the functions a robot may call, its limits,
+//! compiled code and the cache of it.
+
+mod backtrace;
+mod bindings;
+mod cache;
+mod compiled_code;
+mod config;
+mod cost;
+mod fault;
+mod guest;
+mod interface;
+mod limiter;
+mod runtime;
+
+pub use backtrace::Frame;
+pub(crate) use backtrace::{FRAMES_MAX, frames};
+pub(crate) use bindings::{action, briefing, sensors};
+pub use cache::Cache;
+pub(crate) use compiled_code::{CompiledCode, Destination};
+pub use config::{ENGINE_REVISION, MATCH_SECONDS_MAX, WASMTIME_VERSION, engine_config, engine_id};
+pub(crate) use config::{match_epochs_max, new_compiler};
+pub(crate) use fault::classify;
+pub(crate) use guest::Guest;
+pub use runtime::{CacheUse, CompiledRobot, Runtime};

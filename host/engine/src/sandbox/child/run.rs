@@ -1,0 +1,239 @@
+//! The run worker: plays batches of matches.
+
+use std::io::{self, BufWriter, Read, Write};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use wasmouse_core::Digest;
+use wasmouse_core::maze::Maze;
+use wasmouse_core::record::{FuelUse, GameResult, MatchKey, MatchSpec};
+
+use super::super::protocol::{
+    self, Details, Hello, Loaded, MatchOrder, MatchReport, OwnedNote, Request, RunBatch,
+    RunFailure, Setup,
+};
+use super::super::role::{Role, SandboxStatus};
+use super::confine;
+use super::pipes::{Pipes, read_exactly};
+use super::setup::sandboxed;
+use crate::STACK_BYTES;
+use crate::admission::Rejection;
+use crate::error::InfrastructureError;
+use crate::limits::Limits;
+use crate::runner::Recording;
+use crate::runtime::{CompiledRobot, Runtime, engine_id};
+
+/// Reports wait this long at most for others to be sent with them.
+const REPORT_DELAY_MAX: Duration = Duration::from_millis(20);
+
+/// Plays what the supervisor asks for on standard input until that ends.
+///
+/// # Errors
+///
+/// When the pipes break or the machine cannot run robots.
+pub fn main() -> io::Result<()> {
+    main_with(&|_seed| ())
+}
+
+/// [`main`] with something to do before each match, which gets the seed: tests use it to fail
+/// in the middle of a batch.
+///
+/// # Errors
+///
+/// As [`main`].
+#[doc(hidden)]
+pub fn main_with(before_match: &'static (dyn Fn(u64) + Sync)) -> io::Result<()> {
+    confine::close_inherited();
+    confine::die_with_parent();
+    let mut pipes = Pipes::standard()?;
+    let Some(setup) = protocol::read::<Setup>(&mut pipes.from)? else {
+        return Ok(());
+    };
+    enter(&setup.limits.clone(), move |runtime, sandbox| {
+        let hello = Hello {
+            build: protocol::build(),
+            sandbox,
+        };
+        let mut table = Table::new(runtime, setup, before_match);
+        protocol::write(&mut pipes.to, &hello)?;
+        pipes.to.flush()?;
+        while let Some(request) = protocol::read::<Request>(&mut pipes.from)? {
+            table.answer(request, &mut pipes.from, &mut pipes.to)?;
+        }
+        Ok(())
+    })
+}
+
+/// Sandboxes this process and then works on a thread with a stack of known size. The process
+/// can run robots afterwards, and not much more.
+///
+/// # Errors
+///
+/// When the machine gives no engine or no threads, or the work fails.
+pub fn enter<W>(limits: &Limits, work: W) -> io::Result<()>
+where
+    W: FnOnce(Runtime, SandboxStatus) -> io::Result<()> + Send + 'static,
+{
+    confine::set_limits(Role::Run);
+    let failed = |error: InfrastructureError| io::Error::other(error.to_string());
+    // The engine opens a file of its own, so it is made before files are forbidden.
+    let runtime = Runtime::without_clock(*limits, 1, None).map_err(failed)?;
+    let clock = runtime.clock();
+    let threads = move || clock.start().map_err(failed);
+    sandboxed(Role::Run, STACK_BYTES, threads, move |sandbox| {
+        work(runtime, sandbox)
+    })
+}
+
+/// What the worker keeps between requests.
+struct Table {
+    runtime: Runtime,
+    rules: Arc<wasmouse_core::game::Ruleset>,
+    /// The parts of every key that are the same for all matches.
+    engine_digest: Digest,
+    rules_digest: Digest,
+    /// By slot.
+    robots: Vec<Option<CompiledRobot>>,
+    /// By slot, with the digest.
+    mazes: Vec<Option<(Digest, Arc<Maze>)>>,
+    recording: Recording,
+    before_match: &'static (dyn Fn(u64) + Sync),
+}
+
+impl Table {
+    fn new(runtime: Runtime, setup: Setup, before_match: &'static (dyn Fn(u64) + Sync)) -> Self {
+        Self {
+            runtime,
+            engine_digest: engine_id().digest(),
+            rules_digest: setup.rules.digest(),
+            rules: Arc::new(setup.rules),
+            robots: Vec::new(),
+            mazes: Vec::new(),
+            recording: Recording::default(),
+            before_match,
+        }
+    }
+
+    /// Does what a request asks; the bytes that follow the request come from `from`.
+    fn answer(
+        &mut self,
+        request: Request,
+        from: &mut impl Read,
+        to: &mut BufWriter<impl Write>,
+    ) -> io::Result<()> {
+        match request {
+            Request::Robot {
+                slot,
+                length,
+                code,
+                robot,
+            } => {
+                let bytes = read_exactly(from, length)?;
+                let loaded = self.load(slot, &bytes, (code, robot));
+                protocol::write(to, &loaded)?;
+                to.flush()
+            }
+            Request::Maze { slot, bytes } => {
+                let maze = Maze::from_identity_bytes(&bytes);
+                let maze = maze.ok_or_else(|| io::Error::other("a maze cannot be read"))?;
+                put(&mut self.mazes, slot, (maze.digest(), Arc::new(maze)));
+                Ok(())
+            }
+            Request::Run(batch) => self.run(&batch, to),
+        }
+    }
+
+    fn load(&mut self, slot: u16, bytes: &[u8], (code, robot): (Digest, Digest)) -> Loaded {
+        if Digest::of(bytes) != code {
+            return Loaded::Damaged;
+        }
+        // SAFETY: the digest is the one that the supervisor wrote down when a compile worker
+        // handed the code over.
+        match unsafe { self.runtime.load(bytes, robot) } {
+            Ok(robot) => {
+                let requirements = robot.requirements();
+                put(&mut self.robots, slot, robot);
+                Loaded::Ready(requirements)
+            }
+            // The robot was valid when it was compiled, so this is about its code: from
+            // another version of wasmtime, say.
+            Err(Rejection::Invalid(_)) => Loaded::Damaged,
+            Err(rejection) => Loaded::Rejected(rejection.into()),
+        }
+    }
+
+    fn run(&mut self, batch: &RunBatch, to: &mut BufWriter<impl Write>) -> io::Result<()> {
+        let mut sent = Instant::now();
+        for order in &batch.matches {
+            (self.before_match)(order.seed);
+            let report = self.run_one(batch, order)?;
+            protocol::write(to, &report)?;
+            if sent.elapsed() >= REPORT_DELAY_MAX {
+                to.flush()?;
+                sent = Instant::now();
+            }
+        }
+        to.flush()
+    }
+
+    fn run_one(&mut self, batch: &RunBatch, order: &MatchOrder) -> io::Result<MatchReport> {
+        let unknown = || io::Error::other("a match of an unknown robot or maze");
+        let robot = get(&self.robots, batch.robot).ok_or_else(unknown)?;
+        let (maze_digest, maze) = get(&self.mazes, order.maze).ok_or_else(unknown)?;
+        let spec = MatchSpec {
+            key: MatchKey {
+                engine: self.engine_digest,
+                rules: self.rules_digest,
+                robot: *robot.digest(),
+                variant: order.variant,
+                maze: *maze_digest,
+                seed: order.seed,
+            },
+            maze: Arc::clone(maze),
+            rules: Arc::clone(&self.rules),
+        };
+        let ran = self.runtime.run(robot, &spec, &mut self.recording);
+        Ok(report(ran, &self.recording, batch.details))
+    }
+}
+
+fn report(
+    ran: Result<(GameResult, FuelUse), InfrastructureError>,
+    recording: &Recording,
+    details: bool,
+) -> MatchReport {
+    let (transcript, fuel) = match ran {
+        Ok((_, fuel)) => (Ok(recording.transcript.to_bytes()), fuel),
+        Err(InfrastructureError::Stalled { .. }) => (Err(RunFailure::Stalled), FuelUse::default()),
+        Err(error) => (
+            Err(RunFailure::Failed(error.to_string())),
+            FuelUse::default(),
+        ),
+    };
+    MatchReport {
+        transcript,
+        fuel,
+        journal: recording.journal.counts(),
+        details: details.then(|| {
+            let entries = recording.journal.entries();
+            Details {
+                step_fuel: recording.step_fuel.clone(),
+                journal: entries
+                    .map(|entry| (entry.step, OwnedNote::from(entry.note)))
+                    .collect(),
+            }
+        }),
+    }
+}
+
+fn put<T>(slots: &mut Vec<Option<T>>, slot: u16, value: T) {
+    let slot = usize::from(slot);
+    if slots.len() <= slot {
+        slots.resize_with(slot + 1, || None);
+    }
+    slots[slot] = Some(value);
+}
+
+fn get<T>(slots: &[Option<T>], slot: u16) -> Option<&T> {
+    slots.get(usize::from(slot))?.as_ref()
+}

@@ -1,0 +1,193 @@
+//! [`Admitter`]: admits untrusted files. Workers examine a file, compile it, and load the code.
+
+use std::sync::Arc;
+
+use wasmouse_core::Digest;
+use wasmtime::Engine;
+
+use super::super::protocol::{Compiled, Loaded};
+use super::super::role::Role;
+use super::compiler::{Compiler, Findings, Wanted};
+use super::pool::Pool;
+use super::robot::SandboxedRobot;
+use crate::admission::{Inspection, Rejection, check_size};
+use crate::error::InfrastructureError;
+use crate::runtime::{Cache, CacheUse, CompiledCode, Destination};
+
+/// How often a robot is loaded when its worker ends for reasons that may not be the robot's.
+const TRIES: u32 = 4;
+
+/// Admits files on behalf of the supervisor.
+pub(super) struct Admitter<'a> {
+    pub(super) pool: &'a Pool,
+    pub(super) cache: Option<&'a Cache>,
+    /// Names what compiled code is for; compiles nothing.
+    pub(super) engine: &'a Engine,
+}
+
+impl Admitter<'_> {
+    /// Admits a file as a robot.
+    ///
+    /// # Errors
+    ///
+    /// When the host fails; the inner error is the reason why the file is rejected.
+    pub(super) fn admit(
+        &self,
+        bytes: &[u8],
+    ) -> Result<Result<SandboxedRobot, Rejection>, InfrastructureError> {
+        if let Err(rejection) = check_size(bytes, &self.pool.limits) {
+            return Ok(Err(rejection));
+        }
+        let digest = Digest::of(bytes);
+        if let Some(code) = self.cached(&digest)
+            && let Some(admitted) = self.load(&digest, Arc::new(code), CacheUse::Hit)?
+        {
+            return Ok(admitted);
+        }
+        let (findings, cache) = match self.compile(bytes, &digest)? {
+            Ok(compiled) => compiled,
+            Err(rejection) => return Ok(Err(rejection)),
+        };
+        let code = match (findings.examined.result, findings.code) {
+            (Compiled::Rejected(text), _) => return Ok(Err(text.into())),
+            (Compiled::Code { .. }, Some(code)) => code,
+            _ => return Err(compile_failed("it sent no code".into())),
+        };
+        let damaged = || compile_failed("its code was damaged as soon as it was written".into());
+        self.load(&digest, Arc::new(code), cache)?
+            .ok_or_else(damaged)
+    }
+
+    /// Examines a file as [`Admitter::admit`] does, and reports everything.
+    ///
+    /// # Errors
+    ///
+    /// When the host fails.
+    pub(super) fn inspect(&self, bytes: &[u8]) -> Result<Inspection, InfrastructureError> {
+        let mut inspection = Inspection::new(bytes);
+        if let Err(rejection) = check_size(bytes, &self.pool.limits) {
+            inspection.rejection = Some(rejection);
+            return Ok(inspection);
+        }
+        let wanted = Wanted {
+            code: false,
+            description: true,
+        };
+        let temporary = || Destination::temporary();
+        let findings = match self.compiler().examine(bytes, wanted, &temporary)? {
+            Ok(findings) => findings,
+            Err(rejection) => {
+                inspection.rejection = Some(rejection);
+                return Ok(inspection);
+            }
+        };
+        inspection.kind = findings.examined.kind;
+        inspection.shape = findings.examined.shape;
+        inspection.wit = findings.examined.wit;
+        match findings.examined.result {
+            Compiled::Rejected(text) => inspection.rejection = Some(text.into()),
+            Compiled::NotWanted | Compiled::Code { .. } => match self.admit(bytes)? {
+                Ok(robot) => inspection.requirements = robot.requirements,
+                Err(rejection) => inspection.rejection = Some(rejection),
+            },
+        }
+        Ok(inspection)
+    }
+
+    fn cached(&self, digest: &Digest) -> Option<CompiledCode> {
+        self.cache?.open_code(self.engine, digest)
+    }
+
+    const fn compiler(&self) -> Compiler<'_> {
+        Compiler {
+            starter: &self.pool.starter,
+            limits: &self.pool.limits,
+        }
+    }
+
+    /// Compiles a file into the cache, or into a temporary file where that fails.
+    fn compile(
+        &self,
+        bytes: &[u8],
+        digest: &Digest,
+    ) -> Result<Result<(Findings, CacheUse), Rejection>, InfrastructureError> {
+        let wanted = Wanted {
+            code: true,
+            description: false,
+        };
+        let compiler = self.compiler();
+        let uncached = |cache: CacheUse| {
+            let examined = compiler.examine(bytes, wanted, &|| Destination::temporary())?;
+            Ok(examined.map(|findings| (findings, cache)))
+        };
+        let Some(cache) = self.cache else {
+            return uncached(CacheUse::Off);
+        };
+        let cached = || cache.destination(self.engine, digest);
+        match compiler.examine(bytes, wanted, &cached) {
+            Ok(examined) => Ok(examined.map(|findings| (findings, CacheUse::Stored))),
+            // The cache has no room; perhaps there is some elsewhere.
+            Err(InfrastructureError::Store(reason)) => {
+                let error = cache.failure(reason);
+                uncached(CacheUse::Failed(error.to_string()))
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Has a worker load the code; `None` when the code is damaged.
+    fn load(
+        &self,
+        digest: &Digest,
+        code: Arc<CompiledCode>,
+        cache: CacheUse,
+    ) -> Result<Option<Result<SandboxedRobot, Rejection>>, InfrastructureError> {
+        let mut tries = 0;
+        loop {
+            tries += 1;
+            let mut worker = self.pool.take(digest)?;
+            match worker.load(digest, &code) {
+                Ok(Some(Loaded::Damaged)) => {
+                    self.pool.put(worker);
+                    if let Some(cache) = self.cache {
+                        cache.forget(self.engine, digest);
+                    }
+                    return Ok(None);
+                }
+                Ok(Some(Loaded::Rejected(text))) => {
+                    self.pool.put(worker);
+                    return Ok(Some(Err(text.into())));
+                }
+                Ok(loaded) => {
+                    self.pool.put(worker);
+                    let requirements = match loaded {
+                        Some(Loaded::Ready(requirements)) => requirements,
+                        _ => None,
+                    };
+                    return Ok(Some(Ok(SandboxedRobot {
+                        digest: *digest,
+                        code,
+                        cache,
+                        requirements,
+                    })));
+                }
+                Err(error) => {
+                    let exit = worker.reap(&error);
+                    if tries == TRIES {
+                        return Err(InfrastructureError::Worker {
+                            role: Role::Run.name(),
+                            reason: exit.to_string(),
+                        });
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn compile_failed(reason: String) -> InfrastructureError {
+    InfrastructureError::Worker {
+        role: Role::Compile.name(),
+        reason,
+    }
+}

@@ -1,0 +1,201 @@
+//! The supervisor's side of a compile worker: [`Compiler`].
+
+use std::io::{self, BufRead as _, Write as _};
+use std::time::Duration;
+
+use super::super::protocol::{CompileOrder, Compiled, Examined};
+use super::super::role::{COMPILE_CPU_SECONDS, COMPILE_MEMORY_BYTES, Role, SandboxStatus};
+use super::process::{Process, Starter, WorkerExit};
+use crate::admission::Rejection;
+use crate::error::InfrastructureError;
+use crate::limits::Limits;
+use crate::runtime::{CompiledCode, Destination};
+
+/// How long a compile worker may take on the wall clock. Its processor time is limited too;
+/// this is for one that waits.
+const COMPILE_TIME_MAX: Duration = Duration::from_secs(2 * COMPILE_CPU_SECONDS);
+
+/// Compiled code larger than this is rejected, in bytes. Python robots have 60 MB.
+const CODE_BYTES_MAX: u64 = 512 << 20;
+
+/// How often a file is tried when its worker is killed from outside.
+const TRIES: u32 = 3;
+
+/// What is wanted of a file.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted {
+    /// Compiled code.
+    pub(super) code: bool,
+    /// Its world as WIT.
+    pub(super) description: bool,
+}
+
+/// Everything that a compile worker reported about a file.
+pub(super) struct Findings {
+    pub(super) examined: Examined,
+    /// The code, when wanted and there.
+    pub(super) code: Option<CompiledCode>,
+}
+
+/// Starts compile workers.
+pub(super) struct Compiler<'a> {
+    pub(super) starter: &'a Starter,
+    pub(super) limits: &'a Limits,
+}
+
+/// How an attempt failed.
+enum Failed {
+    /// The worker, or the pipe to it.
+    Worker {
+        process: Process,
+        error: io::Error,
+        /// Whether the worker had begun with the file.
+        begun: bool,
+    },
+    /// Anything else that is not about the file.
+    Infrastructure(InfrastructureError),
+}
+
+impl Compiler<'_> {
+    /// Has a worker look at the file and compile it, and writes the code to the
+    /// destination.
+    ///
+    /// # Errors
+    ///
+    /// When the host fails: no process, no room for the code. A file whose worker crashes or
+    /// takes too much is rejected.
+    pub(super) fn examine(
+        &self,
+        file: &[u8],
+        wanted: Wanted,
+        destination: &dyn Fn() -> io::Result<Destination>,
+    ) -> Result<Result<Findings, Rejection>, InfrastructureError> {
+        let mut tries = 0;
+        loop {
+            tries += 1;
+            let process = Process::start(self.starter, Role::Compile)?;
+            let (exit, begun) = match self.attempt(process, file, wanted, destination) {
+                Ok(findings) => return Ok(Ok(findings)),
+                Err(Failed::Infrastructure(error)) => return Err(error),
+                Err(Failed::Worker {
+                    process,
+                    error,
+                    begun,
+                }) => (process.reap(&error), begun),
+            };
+            if !begun && tries == TRIES {
+                return Err(InfrastructureError::Worker {
+                    role: Role::Compile.name(),
+                    reason: exit.to_string(),
+                });
+            }
+            // Being killed from outside says nothing about the file, unless it goes on.
+            if begun && (tries == TRIES || !exit.is_kill()) {
+                return Ok(Err(rejection(&exit)));
+            }
+        }
+    }
+
+    fn attempt(
+        &self,
+        mut process: Process,
+        file: &[u8],
+        wanted: Wanted,
+        destination: &dyn Fn() -> io::Result<Destination>,
+    ) -> Result<Findings, Failed> {
+        process.set_deadline(COMPILE_TIME_MAX);
+        let mut begun = false;
+        match self.ask(&mut process, file, wanted, &mut begun) {
+            Ok((sandbox, examined)) => {
+                self.starter
+                    .check(sandbox)
+                    .map_err(Failed::Infrastructure)?;
+                match receive_code(&mut process, &examined, destination) {
+                    Ok(code) => Ok(Findings { examined, code }),
+                    Err(Broken::Pipe(error)) => Err(Failed::Worker {
+                        process,
+                        error,
+                        begun,
+                    }),
+                    Err(Broken::Destination(error)) => Err(Failed::Infrastructure(
+                        InfrastructureError::Store(error.to_string()),
+                    )),
+                }
+            }
+            Err(error) => Err(Failed::Worker {
+                process,
+                error,
+                begun,
+            }),
+        }
+    }
+
+    fn ask(
+        &self,
+        process: &mut Process,
+        file: &[u8],
+        wanted: Wanted,
+        begun: &mut bool,
+    ) -> io::Result<(SandboxStatus, Examined)> {
+        process.send(&CompileOrder {
+            limits: *self.limits,
+            length: u64::try_from(file.len()).unwrap_or(u64::MAX),
+            compile: wanted.code,
+            describe: wanted.description,
+        })?;
+        process.writer().write_all(file)?;
+        process.flush()?;
+        let sandbox = process.greet()?;
+        *begun = true;
+        Ok((sandbox, process.receive()?))
+    }
+}
+
+/// Which end of the transfer broke.
+enum Broken {
+    Pipe(io::Error),
+    Destination(io::Error),
+}
+
+/// The code that the worker announced, if any.
+fn receive_code(
+    process: &mut Process,
+    examined: &Examined,
+    destination: &dyn Fn() -> io::Result<Destination>,
+) -> Result<Option<CompiledCode>, Broken> {
+    let Compiled::Code { length, digest } = &examined.result else {
+        return Ok(None);
+    };
+    if *length > CODE_BYTES_MAX {
+        let error = io::Error::other(format!("the compiled code has {length} bytes"));
+        return Err(Broken::Pipe(error));
+    }
+    let mut to = destination().map_err(Broken::Destination)?;
+    let mut left = *length;
+    while left > 0 {
+        let chunk = process.reader().fill_buf().map_err(Broken::Pipe)?;
+        if chunk.is_empty() {
+            return Err(Broken::Pipe(io::ErrorKind::UnexpectedEof.into()));
+        }
+        let taken = chunk.len().min(usize::try_from(left).unwrap_or(usize::MAX));
+        to.write(&chunk[..taken]).map_err(Broken::Destination)?;
+        process.reader().consume(taken);
+        left -= taken as u64;
+    }
+    let code = to.finish(digest).map_err(Broken::Destination)?;
+    let differs = || Broken::Pipe(io::Error::other("the code does not match its digest"));
+    code.map(Some).ok_or_else(differs)
+}
+
+/// The rejection of a file that its compile worker did not survive.
+fn rejection(exit: &WorkerExit) -> Rejection {
+    Rejection::Uncompilable(if exit.expired {
+        format!("takes more than {} s", COMPILE_TIME_MAX.as_secs())
+    } else if exit.is_out_of_processor_time() {
+        format!("takes more than {COMPILE_CPU_SECONDS} s of processor time")
+    } else if exit.stderr.contains("memory allocation of") {
+        format!("takes more than {COMPILE_MEMORY_BYTES} bytes of memory")
+    } else {
+        format!("crashes the compiler: {exit}")
+    })
+}

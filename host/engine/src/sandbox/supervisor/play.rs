@@ -1,0 +1,216 @@
+//! Playing batches of matches in workers, whatever happens to those.
+//!
+//! Nothing that happens to a worker changes a result. A match whose worker ends is played
+//! again alone in a fresh one; only a robot that crashes that one too is blamed. A worker that
+//! was killed from outside is never the robot's fault.
+
+use std::io;
+use std::ops::ControlFlow;
+
+use wasmouse_core::game::{FaultKind, Phase};
+use wasmouse_core::journal::JournalCounts;
+use wasmouse_core::record::{FuelUse, MatchRecord, MatchSpec, replay};
+
+use super::super::protocol::Loaded;
+use super::super::role::Role;
+use super::check::check;
+use super::pool::{Pool, RunWorker};
+use super::process::WorkerExit;
+use super::robot::SandboxedRobot;
+use crate::error::InfrastructureError;
+use crate::runner::Recording;
+
+/// Matches in one message, at most: fewer than the mazes that a worker keeps.
+const BATCH_MAX: usize = 64;
+
+/// How often a match is tried when its worker ends for reasons that may not be the robot's.
+const TRIES: u32 = 4;
+
+/// Gets what came of each match, in order, and says whether to go on.
+type Sink<'a> =
+    dyn FnMut(Result<MatchRecord, InfrastructureError>, &Recording) -> ControlFlow<()> + 'a;
+
+impl Pool {
+    /// Plays matches of a robot and passes on their records in order, until the sink breaks.
+    pub(super) fn play(
+        &self,
+        robot: &SandboxedRobot,
+        specs: &[MatchSpec],
+        recording: &mut Recording,
+        sink: &mut Sink<'_>,
+    ) -> ControlFlow<()> {
+        specs
+            .chunks(BATCH_MAX)
+            .try_for_each(|batch| self.play_batch(robot, batch, recording, sink))
+    }
+
+    /// Plays one match and leaves its journal and its fuel by step in `recording`.
+    pub(super) fn play_with_details(
+        &self,
+        robot: &SandboxedRobot,
+        spec: &MatchSpec,
+        recording: &mut Recording,
+    ) -> Result<MatchRecord, InfrastructureError> {
+        let worker = self.take(&robot.digest)?;
+        match self.play_one(worker, robot, (spec, true), recording) {
+            Ok(Ok(record)) => Ok(record),
+            Ok(Err(_)) | Err(_) => self.play_alone(robot, (spec, true), recording),
+        }
+    }
+
+    fn play_batch(
+        &self,
+        robot: &SandboxedRobot,
+        specs: &[MatchSpec],
+        recording: &mut Recording,
+        sink: &mut Sink<'_>,
+    ) -> ControlFlow<()> {
+        let mut left = specs;
+        while !left.is_empty() {
+            let worker = match self.take(&robot.digest) {
+                Ok(worker) => worker,
+                Err(error) => {
+                    let reason = error.to_string();
+                    return left
+                        .iter()
+                        .try_for_each(|_| sink(Err(run_failed(reason.clone())), recording));
+                }
+            };
+            let mut done = 0;
+            let mut flow = ControlFlow::Continue(());
+            let mut failed = false;
+            let ended = self.try_batch(
+                worker,
+                robot,
+                (left, false),
+                recording,
+                &mut |record, recording| {
+                    // A match that the worker itself gave up on is played again too.
+                    if record.is_err() {
+                        failed = true;
+                        return ControlFlow::Break(());
+                    }
+                    done += 1;
+                    flow = sink(record, recording);
+                    flow
+                },
+            );
+            flow?;
+            left = left.get(done..).unwrap_or_default();
+            if (failed || ended.is_err())
+                && let Some((first, rest)) = left.split_first()
+            {
+                let record = self.play_alone(robot, (first, false), recording);
+                sink(record, recording)?;
+                left = rest;
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Plays one match in workers that have run nothing else, and blames the robot when it
+    /// crashes one of those.
+    fn play_alone(
+        &self,
+        robot: &SandboxedRobot,
+        (spec, details): (&MatchSpec, bool),
+        recording: &mut Recording,
+    ) -> Result<MatchRecord, InfrastructureError> {
+        let mut tries = 0;
+        loop {
+            tries += 1;
+            let exit = match self.play_one(self.start()?, robot, (spec, details), recording) {
+                Ok(record) => return record,
+                Err(exit) => exit,
+            };
+            if exit.expired {
+                return Err(InfrastructureError::Stalled {
+                    seconds: self.starter.workers.patience.as_secs(),
+                });
+            }
+            if exit.is_crash() {
+                return Ok(crashed(&exit, spec, recording));
+            }
+            if tries == TRIES || !exit.is_kill() {
+                return Err(run_failed(exit.to_string()));
+            }
+        }
+    }
+
+    fn play_one(
+        &self,
+        worker: RunWorker,
+        robot: &SandboxedRobot,
+        (spec, details): (&MatchSpec, bool),
+        recording: &mut Recording,
+    ) -> Result<Result<MatchRecord, InfrastructureError>, WorkerExit> {
+        let mut played = Err(run_failed("it was not played".into()));
+        let specs = std::slice::from_ref(spec);
+        self.try_batch(
+            worker,
+            robot,
+            (specs, details),
+            recording,
+            &mut |record, _| {
+                played = record;
+                ControlFlow::Continue(())
+            },
+        )?;
+        Ok(played)
+    }
+
+    /// Plays matches in that worker and keeps it when all went well. A worker that is in the
+    /// middle of something when the sink breaks is killed.
+    fn try_batch(
+        &self,
+        mut worker: RunWorker,
+        robot: &SandboxedRobot,
+        (specs, details): (&[MatchSpec], bool),
+        recording: &mut Recording,
+        sink: &mut Sink<'_>,
+    ) -> Result<(), WorkerExit> {
+        let mut played = specs.iter();
+        let mut stopped = false;
+        let outcome = worker.load(&robot.digest, &robot.code).and_then(|loaded| {
+            if let Some(Loaded::Rejected(_) | Loaded::Damaged) = loaded {
+                return Err(io::Error::other("an admitted robot cannot be loaded"));
+            }
+            worker.run(&robot.digest, specs, details, &mut |report| {
+                let spec = played.next().ok_or(io::ErrorKind::InvalidData)?;
+                let record = check(report, spec, recording).map_err(io::Error::other)?;
+                stopped = sink(record, recording).is_break();
+                if stopped {
+                    return Err(io::ErrorKind::Interrupted.into());
+                }
+                Ok(())
+            })
+        });
+        match outcome {
+            Ok(()) => {
+                self.put(worker);
+                Ok(())
+            }
+            Err(_) if stopped => Ok(()),
+            Err(error) => Err(worker.reap(&error)),
+        }
+    }
+}
+
+/// The record of a match that crashes its worker each time.
+fn crashed(exit: &WorkerExit, spec: &MatchSpec, recording: &mut Recording) -> MatchRecord {
+    recording.clear(&spec.rules.sandbox);
+    let detail = format!("crashed the process that it ran in, twice: {exit}");
+    let transcript = &mut recording.transcript;
+    transcript.end_with_fault(FaultKind::Crash, Phase::Unknown, detail);
+    let result = replay(&spec.maze, &spec.rules.game, transcript)
+        .expect("a match may fail before its first step");
+    let (fuel, journal) = (FuelUse::default(), JournalCounts::default());
+    MatchRecord::new(spec.key, result, fuel, journal, transcript)
+}
+
+fn run_failed(reason: String) -> InfrastructureError {
+    InfrastructureError::Worker {
+        role: Role::Run.name(),
+        reason,
+    }
+}

@@ -1,0 +1,344 @@
+//! [`Process`]: one worker, seen from the supervisor.
+
+use std::ffi::OsString;
+use std::fmt;
+use std::io::{self, BufReader, BufWriter, Read as _, Write as _};
+use std::path::PathBuf;
+use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
+use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::super::protocol::{self, Hello};
+use super::super::role::{Role, SandboxStatus};
+use super::monitor::{Monitor, Watched};
+use crate::error::InfrastructureError;
+use crate::runtime::MATCH_SECONDS_MAX;
+
+/// How workers are run.
+#[derive(Clone, Debug)]
+pub struct WorkerOptions {
+    /// The program that they are started from.
+    pub executable: Executable,
+    /// How long a match may take on the wall clock. It says nothing about the robot: fuel
+    /// ends matches, and this ends a worker that stalls.
+    pub patience: Duration,
+    /// Fail where the operating system cannot sandbox them completely.
+    pub require_sandbox: bool,
+}
+
+/// How long a match may take on the wall clock before its worker is killed, by default: somewhat
+/// longer than the worker's own clock would let it.
+pub const PATIENCE: Duration = Duration::from_secs(MATCH_SECONDS_MAX + 30);
+
+/// Starts workers.
+pub(super) struct Starter {
+    pub(super) monitor: Monitor,
+    pub(super) workers: WorkerOptions,
+}
+
+impl Starter {
+    /// Whether a worker with these layers of the sandbox may work.
+    ///
+    /// # Errors
+    ///
+    /// When a layer is missing and all are required.
+    pub(super) const fn check(&self, sandbox: SandboxStatus) -> Result<(), InfrastructureError> {
+        if sandbox.is_complete() || !self.workers.require_sandbox {
+            return Ok(());
+        }
+        Err(InfrastructureError::IncompleteSandbox {
+            missing: sandbox.missing(),
+        })
+    }
+}
+
+/// How long a worker may take to start.
+const START_TIME_MAX: Duration = Duration::from_secs(30);
+
+/// How much of a worker's standard error is kept, in bytes.
+const STDERR_BYTES_MAX: u64 = 4 << 10;
+
+/// The program that workers are started from.
+#[derive(Clone, Debug)]
+pub struct Executable(PathBuf);
+
+impl Executable {
+    /// The program of this process, also when its file has been replaced meanwhile.
+    ///
+    /// # Errors
+    ///
+    /// When the operating system does not tell where it is.
+    pub fn current() -> io::Result<Self> {
+        if cfg!(target_os = "linux") {
+            Ok(Self("/proc/self/exe".into()))
+        } else {
+            std::env::current_exe().map(Self)
+        }
+    }
+
+    /// Another program that has the same roles.
+    pub fn at(path: impl Into<PathBuf>) -> Self {
+        Self(path.into())
+    }
+
+    fn command(&self, role: Role) -> Command {
+        let mut command = Command::new(&self.0);
+        command
+            .args(["worker", role.name()])
+            .env_clear()
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        #[cfg(unix)]
+        {
+            use std::os::unix::process::CommandExt as _;
+            // Ctrl-C is for the supervisor, which ends its workers itself.
+            command.process_group(0);
+            command.arg0(OsString::from("wasmouse"));
+        }
+        command
+    }
+}
+
+/// A worker with its pipes. Dropping it kills it.
+pub(super) struct Process {
+    watched: Arc<Watched>,
+    to: BufWriter<ChildStdin>,
+    from: BufReader<ChildStdout>,
+    stderr: ChildStderr,
+}
+
+/// How a worker exited that should not have.
+#[derive(Debug)]
+pub(super) struct WorkerExit {
+    /// How the process ended; `None` when it had to be killed.
+    pub(super) status: Option<ExitStatus>,
+    /// Whether it was killed because it took too long.
+    pub(super) expired: bool,
+    /// What went wrong on the supervisor's side of the pipe.
+    pub(super) error: String,
+    /// The end of what it wrote to standard error.
+    pub(super) stderr: String,
+}
+
+impl Process {
+    /// Starts a worker.
+    pub(super) fn start(starter: &Starter, role: Role) -> Result<Self, InfrastructureError> {
+        let take =
+            |child: &mut Child| (child.stdin.take(), child.stdout.take(), child.stderr.take());
+        let command = starter.workers.executable.command(role);
+        let spawned = starter.monitor.spawn(command, take);
+        let failed = |reason: String| InfrastructureError::Worker {
+            role: role.name(),
+            reason,
+        };
+        let (watched, pipes) = spawned.map_err(|error| failed(error.to_string()))?;
+        let (Some(stdin), Some(stdout), Some(stderr)) = pipes else {
+            return Err(failed("it has no pipes".into()));
+        };
+        watched.set_deadline(START_TIME_MAX);
+        Ok(Self {
+            watched,
+            to: BufWriter::with_capacity(64 << 10, stdin),
+            from: BufReader::with_capacity(64 << 10, stdout),
+            stderr,
+        })
+    }
+
+    /// Kills it after `time`, unless the deadline is moved or cleared before.
+    pub(super) fn set_deadline(&self, time: Duration) {
+        self.watched.set_deadline(time);
+    }
+
+    /// Lets it wait for as long as it takes.
+    pub(super) fn clear_deadline(&self) {
+        self.watched.clear_deadline();
+    }
+
+    /// Sends a frame, perhaps later.
+    pub(super) fn send(&mut self, value: &impl Serialize) -> io::Result<()> {
+        protocol::write(&mut self.to, value)
+    }
+
+    /// Sends everything that waits.
+    pub(super) fn flush(&mut self) -> io::Result<()> {
+        self.to.flush()
+    }
+
+    /// Where large bytes are written to.
+    pub(super) const fn writer(&mut self) -> &mut BufWriter<ChildStdin> {
+        &mut self.to
+    }
+
+    /// Where large bytes are read from.
+    pub(super) const fn reader(&mut self) -> &mut BufReader<ChildStdout> {
+        &mut self.from
+    }
+
+    /// Waits for a frame.
+    pub(super) fn receive<T: DeserializeOwned>(&mut self) -> io::Result<T> {
+        protocol::expect(&mut self.from)
+    }
+
+    /// Waits for the first frame and checks that the worker is the same build.
+    pub(super) fn greet(&mut self) -> io::Result<SandboxStatus> {
+        let hello: Hello = self.receive()?;
+        let build = protocol::build();
+        if hello.build == build {
+            Ok(hello.sandbox)
+        } else {
+            let other = plain(&hello.build.chars().take(80).collect::<String>());
+            Err(io::Error::other(format!(
+                "the worker is build `{other}` and the supervisor is build `{build}`"
+            )))
+        }
+    }
+
+    /// Kills and reaps it after `error`, and returns its exit status.
+    pub(super) fn reap(mut self, error: &io::Error) -> WorkerExit {
+        let broken = matches!(
+            error.kind(),
+            io::ErrorKind::UnexpectedEof | io::ErrorKind::BrokenPipe
+        );
+        let mut child = self.watched.child();
+        // A broken pipe means that it is ending by itself, and how it does says why.
+        let status = if broken && !self.watched.expired() {
+            ended(&mut child)
+        } else {
+            None
+        };
+        // Without effect on one that has ended.
+        let _ = child.kill();
+        let _ = child.wait();
+        drop(child);
+        let mut stderr = Vec::new();
+        // All that is left are its last stderr; the writing end is closed.
+        let _ = (&mut self.stderr)
+            .take(STDERR_BYTES_MAX)
+            .read_to_end(&mut stderr);
+        WorkerExit {
+            status,
+            expired: self.watched.expired(),
+            error: error.to_string(),
+            stderr: plain(&String::from_utf8_lossy(&stderr)),
+        }
+    }
+}
+
+/// How a process ends that closed its pipe, which takes it a moment.
+fn ended(child: &mut Child) -> Option<ExitStatus> {
+    const LOOKS: u32 = 1000;
+    for _ in 0..LOOKS {
+        if let Ok(Some(status)) = child.try_wait() {
+            return Some(status);
+        }
+        thread::sleep(Duration::from_millis(1));
+    }
+    None
+}
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        let mut child = self.watched.child();
+        // It may have ended by itself; what matters is that nothing stays behind.
+        let _ = child.kill();
+        let _ = child.wait();
+    }
+}
+
+impl WorkerExit {
+    /// The signal that ended it.
+    pub(super) fn signal(&self) -> Option<i32> {
+        #[cfg(unix)]
+        {
+            use std::os::unix::process::ExitStatusExt as _;
+            self.status.and_then(|status| status.signal())
+        }
+        #[cfg(not(unix))]
+        None
+    }
+
+    /// Whether it was killed by somebody else than the supervisor, which says nothing
+    /// about what it did.
+    pub(super) fn is_kill(&self) -> bool {
+        #[cfg(unix)]
+        {
+            use rustix::process::Signal;
+            let outside = [Signal::KILL, Signal::TERM, Signal::HUP, Signal::INT];
+            self.signal()
+                .is_some_and(|signal| outside.iter().any(|other| other.as_raw() == signal))
+        }
+        #[cfg(not(unix))]
+        false
+    }
+
+    /// Whether it ended by a signal that a process brings about by what it does: a bad
+    /// access, an illegal instruction, an abort.
+    pub(super) fn is_crash(&self) -> bool {
+        #[cfg(unix)]
+        {
+            use rustix::process::Signal;
+            let own = [
+                Signal::SEGV,
+                Signal::BUS,
+                Signal::ILL,
+                Signal::ABORT,
+                Signal::FPE,
+                Signal::TRAP,
+                Signal::SYS,
+            ];
+            self.signal()
+                .is_some_and(|signal| own.iter().any(|other| other.as_raw() == signal))
+        }
+        #[cfg(not(unix))]
+        self.status.is_some_and(|status| !status.success())
+    }
+
+    /// Whether it used up its processor time.
+    pub(super) fn is_out_of_processor_time(&self) -> bool {
+        #[cfg(unix)]
+        {
+            self.signal() == Some(rustix::process::Signal::XCPU.as_raw())
+        }
+        #[cfg(not(unix))]
+        false
+    }
+}
+
+impl fmt::Display for WorkerExit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.expired {
+            write!(f, "it was killed after its deadline")?;
+        } else if let Some(status) = self.status {
+            write!(f, "it exited with {status}")?;
+        } else {
+            write!(f, "{}", self.error)?;
+        }
+        if let Some(line) = self.stderr.lines().last() {
+            write!(f, ": {line}")?;
+        }
+        Ok(())
+    }
+}
+
+/// The text without anything but printable ASCII and line ends: a worker that a robot
+/// has taken over may say anything.
+fn plain(text: &str) -> String {
+    let printable = |&c: &char| c == '\n' || c == ' ' || c.is_ascii_graphic();
+    let kept: String = text.chars().filter(printable).collect();
+    kept.trim().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+
+    #[test]
+    fn stderr_is_plain_text() {
+        assert_eq!(plain("a\u{1b}[31m b\u{202e}c\r\nd \n"), "a[31m bc\nd");
+    }
+}
