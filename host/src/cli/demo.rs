@@ -11,10 +11,10 @@ use super::run;
 use super::setup::SetupArgs;
 use super::{page, terminal};
 use crate::contest::{Contest, ContestMaze, MatchResult, Standing, standings};
-use crate::maze::bundled as bundled_mazes;
+use wasmouse_core::maze::bundled as bundled_mazes;
 use crate::report::replay;
 use crate::report::table;
-use crate::report::visible;
+use crate::report::escape::for_terminal as visible;
 use crate::robot::bundled::bundled as bundled_robots;
 use crate::robot::{Recorder, Referee};
 
@@ -104,7 +104,7 @@ fn print_best_run(
     let mut recorder = Recorder::default();
     contest
         .replay(referee, result, &mut recorder)
-        .map_err(Failure::host)?;
+        .map_err(Failure::internal)?;
     let maze = &contest.mazes[result.maze];
     let picture = replay::ways(&maze.maze, &recorder.trace);
     let robot = visible(&contest.entrants[result.entrant].name);

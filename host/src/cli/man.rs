@@ -37,7 +37,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         }
         Some(folder) => {
             fs::create_dir_all(folder).map_err(|error| {
-                Failure::host(format_args!(
+                Failure::internal(format_args!(
                     "failed to create `{}`: {error}",
                     folder.display()
                 ))
@@ -69,7 +69,7 @@ fn page(command: &Command, name: &str) -> Result<Vec<u8>, Failure> {
     let written: io::Result<()> = Man::new(command.clone())
         .title(name.to_uppercase())
         .render(&mut page);
-    written.map_err(|error| Failure::host(format_args!("failed to write a page: {error}")))?;
+    written.map_err(|error| Failure::internal(format_args!("failed to write a page: {error}")))?;
     Ok(page)
 }
 

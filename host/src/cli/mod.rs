@@ -99,7 +99,7 @@ pub fn main() -> ExitCode {
     match outcome {
         Ok(exit) => exit.into(),
         Err(failure) => {
-            tell!("{failure}");
+            message!("{failure}");
             failure.exit().into()
         }
     }

@@ -55,12 +55,12 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     check_name(name)?;
     if path.symlink_metadata().is_ok() {
         return Err(
-            Failure::input(format_args!("`{}` is there already", path.display()))
+            Failure::input(format_args!("`{}` already exists", path.display()))
                 .hint("choose another name, or remove it"),
         );
     }
     create(path, name).map_err(|error| {
-        Failure::host(format_args!(
+        Failure::internal(format_args!(
             "failed to create `{}`: {error}",
             path.display()
         ))
@@ -194,7 +194,7 @@ mod tests {
         assert_eq!(entries(&path), 0);
         assert_eq!(entries(folder.path()), 1);
         let lost = folder.path().join("lost/my-robot");
-        assert_eq!(new(&lost).unwrap_err().exit(), Exit::Host);
+        assert_eq!(new(&lost).unwrap_err().exit(), Exit::Internal);
         assert_eq!(entries(folder.path()), 1);
     }
 

@@ -32,7 +32,7 @@ pub fn write(
             continue;
         };
         let replayed = contest.replay(referee, &results[result], &mut recorder);
-        if replayed.map_err(Failure::host)?.is_some() {
+        if replayed.map_err(Failure::internal)?.is_some() {
             let maze = &contest.mazes[results[result].maze];
             let mut picture = replay::ways(&maze.maze, &recorder.trace);
             let robot = &contest.entrants[line.entrant].name;
@@ -43,7 +43,7 @@ pub fn write(
     }
     let page = page(contest, results, standings, &portraits);
     output::save(path, page.as_bytes(), existing)?;
-    tell!("wrote {}", path.display());
+    message!("wrote {}", path.display());
     Ok(())
 }
 

@@ -15,10 +15,10 @@ use super::robots::admit;
 use super::setup::{EngineArgs, IsolationArgs};
 use super::{interrupt, output, run};
 use crate::contest::{Contest, ContestMaze, Entrant};
-use crate::maze::Maze;
+use wasmouse_core::maze::Maze;
 use crate::report::result::{ContestReport, Difference, Unplayed, Verification};
 use crate::report::verification::{FileReport, NotAtHand, to_json};
-use crate::report::visible;
+use crate::report::escape::for_terminal as visible;
 use crate::robot::{Digest, Player, Referee, Refusal};
 use crate::sim::Ruleset;
 
@@ -92,7 +92,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         let (report, own) = match args.verify(path, &file, &at_hand) {
             Ok(verified) => verified,
             Err(failure) => {
-                tell!("{failure}");
+                message!("{failure}");
                 let report = FileReport::unreadable(&file, failure.message());
                 (report, failure.exit())
             }
@@ -215,21 +215,21 @@ impl Args {
         let is_missing = !needed.missing.is_empty();
         let report = FileReport::new(file, &report, differences, needed.missing, problem);
         for failed in unplayed.failed.iter().take(LISTED_MAX) {
-            tell!("error: `{shown}` was not played again: {}", visible(failed));
+            message!("error: `{shown}` was not played again: {}", visible(failed));
         }
         let is_interrupted = unplayed.missing > 0 && interrupted()?;
         if is_interrupted {
             let missing = unplayed.missing;
-            tell!("interrupted: {missing} matches of `{shown}` were not played again");
+            message!("interrupted: {missing} matches of `{shown}` were not played again");
         }
         let exit = if is_interrupted {
             Exit::Interrupted
         } else if !unplayed.failed.is_empty() {
-            Exit::Host
+            Exit::Internal
         } else if is_missing {
             Exit::Input
         } else if report.differs() {
-            Exit::No
+            Exit::CheckFailed
         } else {
             Exit::Success
         };
@@ -332,14 +332,14 @@ fn tell_missing(file: &str, missing: &[NotAtHand]) {
     if missing.is_empty() {
         return;
     }
-    tell!("error: robots or mazes of result `{file}` are not at hand:");
+    message!("error: robots or mazes of result `{file}` are not at hand:");
     for it in missing.iter().take(LISTED_MAX) {
         let (name, sha256) = (visible(&it.name), visible(&it.sha256));
-        tell!("  {} `{name}`, sha256 {sha256}", it.path);
+        message!("  {} `{name}`, sha256 {sha256}", it.path);
     }
     if missing.len() > LISTED_MAX {
         let rest = missing.len() - LISTED_MAX;
-        tell!("  and {rest} more");
+        message!("  and {rest} more");
     }
-    tell!("\nhint: name their files or folders with --robot and --maze");
+    message!("\nhint: name their files or folders with --robot and --maze");
 }

@@ -45,7 +45,7 @@ pub fn watch(
     let mut recorder = Recorder::default();
     contest
         .replay(referee, result, &mut recorder)
-        .map_err(Failure::host)?;
+        .map_err(Failure::internal)?;
     let show = Show {
         contest,
         result,
@@ -60,7 +60,7 @@ pub fn watch(
 }
 
 fn lost(error: io::Error) -> Failure {
-    Failure::host(format!("failed to use the terminal: {error}"))
+    Failure::internal(format!("failed to use the terminal: {error}"))
 }
 
 /// The alternate screen, left when it goes out of scope.
@@ -200,9 +200,9 @@ fn answer(action: Action) -> String {
     match action {
         Action::Move { turn, advance } => {
             let turn = match turn {
-                crate::maze::Turn::Left => "left",
-                crate::maze::Turn::Straight => "straight",
-                crate::maze::Turn::Right => "right",
+                wasmouse_core::maze::Turn::Left => "left",
+                wasmouse_core::maze::Turn::Straight => "straight",
+                wasmouse_core::maze::Turn::Right => "right",
             };
             format!("{turn} {advance}")
         }

@@ -31,6 +31,6 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     };
     match served {
         Ok(()) => Ok(Exit::Success),
-        Err(error) => Err(Failure::host(format!("the worker failed: {error}"))),
+        Err(error) => Err(Failure::internal(format!("the worker failed: {error}"))),
     }
 }

@@ -6,8 +6,8 @@ use super::super::exit::Exit;
 use super::super::failure::Failure;
 use super::super::mazes::{self, Source};
 use super::super::output;
-use crate::maze::format::Format;
-use crate::maze::{Maze, Survey, Violation, violations};
+use wasmouse_core::maze::format::Format;
+use wasmouse_core::maze::{Maze, Survey, Violation, violations};
 use crate::report::maze_check::{CheckedMaze, MazeCheck};
 
 const EXAMPLES: &str = "\
@@ -62,7 +62,7 @@ pub fn run(args: Args) -> Result<Exit, Failure> {
     let checked: Vec<Checked> = args.mazes.iter().flat_map(|spec| check(spec)).collect();
     for checked in &checked {
         if let Err(failure) = &checked.outcome {
-            tell!("{failure}");
+            message!("{failure}");
         }
     }
     let survey = survey(&checked);
@@ -112,7 +112,7 @@ fn exit(checked: &[Checked], lenient: bool) -> Exit {
     if outcomes().any(Result::is_err) {
         Exit::Input
     } else if !lenient && outcomes().flatten().any(is_illegal) {
-        Exit::No
+        Exit::CheckFailed
     } else {
         Exit::Success
     }
@@ -180,7 +180,7 @@ mod tests {
     use std::fs;
 
     use super::*;
-    use crate::maze::bundled;
+    use wasmouse_core::maze::bundled;
 
     /// A legal maze, one with a wall less, and no maze.
     fn folder() -> tempfile::TempDir {
@@ -214,7 +214,7 @@ mod tests {
 
         let (text, exit, _) = check_files(&["b.txt", "a.txt"], false);
         let expected = format!("b.txt: breaks 1 contest rule\n{RULE}a.txt: ok\n");
-        assert_eq!((text, exit), (expected, Exit::No));
+        assert_eq!((text, exit), (expected, Exit::CheckFailed));
 
         let (text, exit, _) = check_files(&["b.txt"], true);
         let expected = format!("b.txt: ok, but breaks 1 contest rule\n{RULE}");

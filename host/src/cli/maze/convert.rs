@@ -8,7 +8,7 @@ use super::super::exit::Exit;
 use super::super::failure::Failure;
 use super::super::mazes::{self, Legality};
 use super::super::output::{self, Existing};
-use crate::maze::format::{self, Format};
+use wasmouse_core::maze::format::{self, Format};
 
 const LONG_HELP: &str = "\
 Formats:

@@ -10,9 +10,9 @@ use super::super::failure::Failure;
 use super::super::interrupt;
 use super::super::mazes;
 use super::super::output::{self, Existing};
-use crate::maze::Maze;
-use crate::maze::format::{self, Format};
-use crate::maze::generate::{GenSpec, GenSpecError, Kind};
+use wasmouse_core::maze::Maze;
+use wasmouse_core::maze::format::{self, Format};
+use wasmouse_core::maze::generate::{GenSpec, GenSpecError, Kind};
 
 const LONG_HELP: &str = "\
 Kinds:
@@ -166,7 +166,7 @@ fn save_all(
     existing: Existing,
 ) -> Result<Exit, Failure> {
     std::fs::create_dir_all(folder).map_err(|error| {
-        Failure::host(format!(
+        Failure::internal(format!(
             "failed to make folder `{}`: {error}",
             folder.display()
         ))
@@ -186,12 +186,12 @@ fn save_all(
     let interrupted = interrupt::listen()?;
     for (written, (name, maze)) in spec.expand().enumerate() {
         if interrupted.load(Ordering::Relaxed) {
-            tell!("interrupted: wrote {written} of {count} mazes to {folder}");
+            message!("interrupted: wrote {written} of {count} mazes to {folder}");
             return Ok(Exit::Interrupted);
         }
         output::save(&file(&name), text(&maze, format).as_bytes(), existing)?;
     }
-    tell!("wrote {count} mazes to {folder}");
+    message!("wrote {count} mazes to {folder}");
     Ok(Exit::Success)
 }
 

@@ -7,7 +7,7 @@ use super::super::failure::Failure;
 use super::super::mazes::{self, Legality, NamedMaze};
 use super::super::output::{self, Existing};
 use super::super::terminal;
-use crate::maze::{Metric, distances_to_goal, shortest_path};
+use wasmouse_core::maze::{Metric, distances_to_goal, shortest_path};
 use crate::report::picture::{Charset, Picture, TextStyle};
 
 const LONG_HELP: &str = "\
@@ -155,7 +155,7 @@ fn picture(named: &NamedMaze, args: &Args) -> Picture {
     if let Some(path) = path {
         picture.set_path(&path);
     } else if !matches!(args.path, PathChoice::None) {
-        tell!("warning: maze `{}` has no way to the goal", named.name);
+        message!("warning: maze `{}` has no way to the goal", named.name);
     }
     if let Some(metric) = args.numbers {
         picture.set_numbers(&distances_to_goal(maze, metric.into()));

@@ -6,7 +6,7 @@ use super::super::exit::Exit;
 use super::super::failure::Failure;
 use super::super::mazes::{self, Legality, NamedMaze};
 use super::super::output;
-use crate::maze::{Floor, Metric, Path, omniscient_floor, shortest_path};
+use wasmouse_core::maze::{Floor, Metric, Path, omniscient_floor, shortest_path};
 use crate::report::maze_solve::{MazeSolve, SolutionJson, SolvedMaze};
 use crate::sim::{Ruleset, Score};
 
@@ -64,7 +64,7 @@ pub fn run(args: Args) -> Result<Exit, Failure> {
     Ok(if solutions.iter().all(Option::is_some) {
         Exit::Success
     } else {
-        Exit::No
+        Exit::CheckFailed
     })
 }
 
@@ -148,7 +148,7 @@ fn json(mazes: &[NamedMaze], solutions: &[Option<Solution>]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::maze::{Maze, Walls};
+    use wasmouse_core::maze::{Maze, Walls};
 
     /// The official maze, and one without openings.
     fn two() -> (Vec<NamedMaze>, Vec<Option<Solution>>) {

@@ -6,7 +6,7 @@
 use super::failure::Failure;
 use super::robots::Specification;
 use crate::contest::{Contest, MatchResult};
-use crate::report::visible;
+use crate::report::escape::for_terminal as visible;
 use crate::robot::{Digest, FaultKind, Frame, Referee, Verdict};
 
 /// Robots that are explained: each is compiled once more.
@@ -48,7 +48,7 @@ pub fn tell(
         }
         let game = contest.game_of(result);
         let explained = referee.explain(player, &bytes, &game, fault);
-        if let Some(frames) = explained.map_err(Failure::host)?
+        if let Some(frames) = explained.map_err(Failure::internal)?
             && !frames.is_empty()
         {
             tell_frames(&entrant.name, &frames);
@@ -68,5 +68,5 @@ fn tell_frames(robot: &str, frames: &[Frame]) {
             lines.push_str(&format!(" (byte {offset} of its module)"));
         }
     }
-    tell!("{lines}");
+    message!("{lines}");
 }

@@ -10,10 +10,10 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use super::mazes::{self, Source};
 use super::robots;
-use crate::maze::generate::GenSpec;
-use crate::maze::{Maze, bundled as bundled_mazes, format};
+use wasmouse_core::maze::generate::GenSpec;
+use wasmouse_core::maze::{Maze, bundled as bundled_mazes, format};
 use crate::report::result::{RecordedMaze, RecordedRobot};
-use crate::report::visible;
+use crate::report::escape::for_terminal as visible;
 use crate::robot::bundled::{BundledRobot, bundled as bundled_robots};
 use crate::robot::{Digest, Trust};
 

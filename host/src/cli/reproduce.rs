@@ -64,18 +64,18 @@ pub fn check(
             let rest = differences.count() - LISTED_MAX;
             message.push_str(&format!("\n  and {rest} more"));
         }
-        return Err(Failure::host(message).hint(
+        return Err(Failure::internal(message).hint(
             "a damaged cache of compiled robots (try --no-cache), a faulty machine, or a \
              bug of wasmouse",
         ));
     }
     if let Some(failed) = unplayed.failed.first() {
         let message = format!("a match was not played a second time: {failed}");
-        return Err(Failure::host(message));
+        return Err(Failure::internal(message));
     }
     if is_interrupted()? {
         let missing = unplayed.missing;
-        tell!("interrupted: {missing} matches were not played a second time");
+        message!("interrupted: {missing} matches were not played a second time");
         return Ok(Exit::Interrupted);
     }
     Ok(Exit::Success)

@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use crate::contest::{Contest, MatchResult};
-use crate::report::visible;
+use crate::report::escape::for_terminal as visible;
 use crate::robot::{Level, Note, Recorder, Referee};
 
 /// Replays every match with a journal and prints its log lines on standard error.
@@ -15,19 +15,19 @@ pub fn print(contest: &Contest, referee: &Referee, results: &[MatchResult]) -> R
     for result in results.iter().filter(|result| result.journal != (0, 0)) {
         contest
             .replay(referee, result, &mut recorder)
-            .map_err(Failure::host)?;
+            .map_err(Failure::internal)?;
         let robot = visible(&contest.entrants[result.entrant].name);
         let maze = visible(&contest.mazes[result.maze].name);
-        tell!("journal of `{robot}` in `{maze}`, seed {}:", result.seed);
+        message!("journal of `{robot}` in `{maze}`, seed {}:", result.seed);
         for entry in recorder.journal.entries() {
             if let Note::Log { level, text } = entry.note {
                 let level = level_name(level);
-                tell!("{:>6} {level:<7} {}", entry.step, visible(text));
+                message!("{:>6} {level:<7} {}", entry.step, visible(text));
             }
         }
         let dropped = recorder.journal.dropped();
         if dropped > 0 {
-            tell!("       {dropped} more entries did not fit the journal's limit");
+            message!("       {dropped} more entries did not fit the journal's limit");
         }
     }
     Ok(())
