@@ -5,5 +5,5 @@
 //! everything about WebAssembly is in [`wasmouse_engine`].
 
 pub mod contest;
-// pub mod report;
+pub mod report;
 // pub mod cli;

@@ -5,6 +5,7 @@
 //! the parts of the [`Results`] document are sinks. Prints nothing and opens no files.
 
 mod best;
+mod difference;
 mod faults;
 mod maze_source;
 mod mean;
@@ -16,6 +17,7 @@ mod standings;
 mod tally;
 
 pub use best::{BestMatch, BestMatches};
+pub use difference::{FieldDifference, differences};
 pub use faults::{FaultGroup, FaultSummary};
 pub use maze_source::{ContestMaze, MazeSource};
 pub use mean::Mean;

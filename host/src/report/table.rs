@@ -1,11 +1,14 @@
-//! Contests as tables for a terminal: the standings, and the matches.
+//! The standings and the matches as tables for a terminal.
 
 use comfy_table::presets::ASCII_MARKDOWN;
-use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
+use comfy_table::{
+    CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Table, TableStyle,
+};
+use wasmouse_core::record::MatchRecord;
 
-use super::visible;
-use crate::contest::{Contest, MatchResult, Standing};
-use crate::robot::Verdict;
+use super::escape;
+use super::standings::{self as standings_text, NONE};
+use crate::contest::{ContestInfo, MazeEntry, Names, Standings};
 
 /// How tables are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,93 +19,131 @@ pub enum Lines {
     Ascii,
 }
 
+/// How a table is laid out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Layout {
+    /// How it is drawn.
+    pub lines: Lines,
+    /// The width to fit, in columns of the terminal: names and verdicts are wrapped where they
+    /// have to be. `None` for as wide as the content.
+    pub width: Option<u16>,
+}
+
 /// A line under the header and nothing else, so that long tables stay short.
 const RULED: TableStyle =
     TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─'));
 
-fn table(lines: Lines, header: &[&str], left: usize) -> Table {
-    let mut table = Table::new();
-    table
-        .load_style(match lines {
-            Lines::Unicode => RULED,
-            Lines::Ascii => ASCII_MARKDOWN,
-        })
-        .set_content_arrangement(ContentArrangement::Disabled)
-        .set_header(header.to_vec());
-    for (index, column) in table.column_iter_mut().enumerate() {
-        column.set_cell_alignment(if index < left {
-            CellAlignment::Left
-        } else {
-            CellAlignment::Right
-        });
-    }
-    table
+/// A column, with text on the left or numbers on the right.
+#[derive(Clone, Copy)]
+enum Column {
+    Text(&'static str),
+    Number(&'static str),
 }
 
-/// The standings, best first. Ends with a newline.
-pub fn standings(contest: &Contest, standings: &[Standing], lines: Lines) -> String {
-    let header = [
-        "rank",
-        "robot",
-        "finished",
-        "mean score",
-        "mean regret",
-        "faults",
-    ];
-    let mut table = table(lines, &header, 2);
-    for line in standings {
-        let rank = line
-            .rank
-            .map_or_else(|| "-".into(), |rank| rank.to_string());
-        let mean = |mean: Option<crate::contest::Mean>| {
-            mean.map_or_else(|| "-".to_owned(), |mean| mean.to_string())
-        };
-        let finished = match line.rank {
-            Some(_) => format!("{} of {}", line.finished, line.matches),
-            None => "refused".into(),
-        };
+use Column::{Number, Text};
+
+/// The standings, best first, under a line that says what they are about. Ends with a newline.
+pub fn standings(contest: &ContestInfo, standings: &Standings, layout: Layout) -> String {
+    let mut table = table(
+        layout,
+        &[
+            Number("Rank"),
+            Text("Robot"),
+            Number("Matches"),
+            Number("Finished"),
+            Number("Faults"),
+            Number("Mean score"),
+            Number("Mean regret"),
+        ],
+    );
+    for line in &standings.lines {
         table.add_row([
-            rank,
-            visible(&contest.entrants[line.entrant].name),
-            finished,
-            mean(line.score),
-            mean(line.regret),
+            standings_text::rank(line),
+            standings_text::robot(contest, line),
+            line.matches.to_string(),
+            line.finished.to_string(),
             line.faults.to_string(),
+            standings_text::mean(line.mean_score_thousandths),
+            standings_text::mean(line.mean_regret_thousandths),
         ]);
     }
-    format!("{table}\n")
+    let scope = standings_text::scope(contest, standings);
+    format!("Standings ({scope})\n\n{table}\n")
 }
 
-/// One line for every match, in the contest's order. Ends with a newline.
-pub fn matches(contest: &Contest, results: &[MatchResult], lines: Lines) -> String {
-    let with_seed = contest.seeds.len() > 1;
-    let mut header = vec![
-        "robot", "maze", "verdict", "score", "run 1", "run 2", "bumps", "fuel",
+/// One line for every match, in the order of the document. Ends with a newline.
+///
+/// The seed is shown when the contest has more than one.
+pub fn matches(
+    contest: &ContestInfo,
+    mazes: &[MazeEntry],
+    matches: &[MatchRecord],
+    layout: Layout,
+) -> String {
+    let names = Names::new(&contest.robots, mazes);
+    let has_seeds = contest.seeds.count > 1;
+    let mut columns = vec![
+        Text("Robot"),
+        Text("Maze"),
+        Text("Verdict"),
+        Number("Score"),
+        Number("Oracle"),
+        Number("Exploration"),
+        Number("Speed"),
+        Number("Bumps"),
+        Number("Fuel"),
     ];
-    if with_seed {
-        header.insert(2, "seed");
+    if has_seeds {
+        columns.insert(2, Number("Seed"));
     }
-    let mut table = table(lines, &header, if with_seed { 4 } else { 3 });
-    for result in results {
-        let outcome = &result.outcome;
-        let score = match &outcome.verdict {
-            Verdict::Finished(score) => score.to_string(),
-            Verdict::BudgetUsedUp { .. } | Verdict::Fault(_) => "-".into(),
+    let mut table = table(layout, &columns);
+    for record in matches {
+        let score = record.verdict.score();
+        let oracle = names.maze(&record.key).and_then(|maze| maze.oracle);
+        let number = |score: Option<wasmouse_core::game::Score>| {
+            score.map_or_else(|| NONE.to_owned(), |score| score.to_string())
         };
         let mut row = vec![
-            visible(&contest.entrants[result.entrant].name),
-            visible(&contest.mazes[result.maze].name),
-            outcome.verdict.title().into_owned(),
-            score,
-            outcome.steps[0].to_string(),
-            outcome.steps[1].to_string(),
-            outcome.counts.bumps.to_string(),
-            (outcome.fuel.start + outcome.fuel.steps).to_string(),
+            escape::for_terminal(names.robot(&record.key)),
+            escape::for_terminal(names.maze_name(&record.key)),
+            record.verdict.title().into_owned(),
+            number(score),
+            number(oracle),
+            record.steps.exploration.to_string(),
+            record.steps.speed.to_string(),
+            record.counts.bumps.to_string(),
+            (record.fuel.start + record.fuel.steps).to_string(),
         ];
-        if with_seed {
-            row.insert(2, result.seed.to_string());
+        if has_seeds {
+            row.insert(2, record.key.seed.to_string());
         }
         table.add_row(row);
     }
     format!("{table}\n")
+}
+
+fn table(layout: Layout, columns: &[Column]) -> Table {
+    let mut table = Table::new();
+    table.load_style(match layout.lines {
+        Lines::Unicode => RULED,
+        Lines::Ascii => ASCII_MARKDOWN,
+    });
+    match layout.width {
+        Some(width) => table
+            .set_content_arrangement(ContentArrangement::Dynamic)
+            .set_width(width),
+        None => table.set_content_arrangement(ContentArrangement::Disabled),
+    };
+    table.set_header(columns.iter().map(|&(Text(name) | Number(name))| name));
+    for (column, kind) in table.column_iter_mut().zip(columns) {
+        match kind {
+            Text(_) => column.set_cell_alignment(CellAlignment::Left),
+            Number(_) => {
+                column.set_cell_alignment(CellAlignment::Right);
+                // A number that is broken over two lines is hard to read.
+                column.set_constraint(ColumnConstraint::ContentWidth);
+            }
+        }
+    }
+    table
 }

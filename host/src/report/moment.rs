@@ -1,61 +1,20 @@
-//! Pictures of a match: the ways of both runs, and the state at one step.
+//! [`moment()`]: a match at one step, with what the robot wrote to its journal by then.
+
+use wasmouse_core::game::{Event, Run, Trace};
+use wasmouse_core::journal::{Belief, Color, Journal, Note};
+use wasmouse_core::maze::{Heading, Maze};
 
 use super::picture::{Label, Paint, Picture, Wall};
-use crate::maze::{Cell, Heading, Maze};
-use crate::robot::{Belief, Color, Journal, Note};
-use crate::sim::{Event, Run, Trace};
 
-/// The way of the last run of a match as a line, over how often run 1 stopped in
-/// each cell as heat.
-pub fn ways(maze: &Maze, trace: &Trace) -> Picture {
-    let mut picture = Picture::of(maze);
-    let run = trace
-        .steps()
-        .last()
-        .map_or(Run::Exploration, |step| step.run);
-    if run == Run::Speed {
-        for (cell, visits) in visits(maze, trace) {
-            if let Some(mark) = picture.mark_mut(cell) {
-                mark.heat = Some(visits);
-            }
-        }
-    }
-    picture.set_stops(&stops(maze, trace, run));
-    picture
-}
-
-/// The cells in which the steps of a run ended, the start first.
-fn stops(maze: &Maze, trace: &Trace, run: Run) -> Vec<Cell> {
-    let mut stops = vec![maze.start()];
-    for step in trace.steps().iter().filter(|step| step.run == run) {
-        if let Event::Moved { cell, cells, .. } = step.event
-            && cells > 0
-        {
-            stops.push(cell);
-        }
-    }
-    stops
-}
-
-/// How many steps of run 1 ended in each cell where one did.
-fn visits(maze: &Maze, trace: &Trace) -> Vec<(Cell, u32)> {
-    let mut counts = vec![0; usize::from(maze.dimension()).pow(2)];
-    for cell in stops(maze, trace, Run::Exploration) {
-        counts[maze.walls().index(cell)] += 1;
-    }
-    let counted = maze.walls().cells().zip(counts);
-    counted.filter(|&(_, visits)| visits > 0).collect()
-}
-
-/// A match after its first `steps` steps: the robot, its way in run 2, and
-/// everything that it has painted and labelled by then. A robot that tells its
-/// beliefs about walls is shown with the maze that it believes in, unknown walls
-/// dotted; for any other the true maze is drawn.
+/// A match after its first `steps` steps: the robot, its path in the speed run, and everything
+/// that it has painted and labelled by then. When the robot reports beliefs about walls, the
+/// picture shows the maze that it believes in, with unknown walls dotted; otherwise it shows
+/// the true maze.
 pub fn moment(maze: &Maze, trace: &Trace, journal: &Journal, steps: usize) -> Picture {
-    let tells_walls = journal
+    let reports_walls = journal
         .entries()
         .any(|entry| matches!(entry.note, Note::Wall { .. }));
-    let mut picture = if tells_walls {
+    let mut picture = if reports_walls {
         Picture::unknown(maze.dimension(), maze.start(), maze.goal())
     } else {
         Picture::of(maze)
@@ -76,14 +35,14 @@ pub fn moment(maze: &Maze, trace: &Trace, journal: &Journal, steps: usize) -> Pi
                     stops.push(to);
                 }
             }
-            Event::ResetDone => {
+            Event::Reset => {
                 (run, cell, heading) = (Run::Speed, maze.start(), Heading::Up);
                 stops = vec![cell];
             }
             Event::ResetBeforeGoal | Event::ResetInSpeedRun => {}
         }
     }
-    // A way that crosses itself many times hides more than it shows.
+    // A path that crosses itself many times hides more than it shows.
     if run == Run::Speed {
         picture.set_stops(&stops);
     }
