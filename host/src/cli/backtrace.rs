@@ -1,71 +1,71 @@
 //! Where in its code a robot failed, for the person who wrote it.
 //!
-//! Matches do not gather this, because it costs; the first failing match of a robot is
-//! played again for it, away from the contest.
+//! Matches do not record backtraces, because that costs time; the first failing match of a
+//! robot is played again for it, away from the contest.
 
-use super::failure::Failure;
-use super::robots::Specification;
-use crate::contest::{Contest, MatchResult};
-use crate::report::escape::for_terminal as visible;
-use crate::robot::{Digest, FaultKind, Frame, Referee, Verdict};
+use std::collections::BTreeSet;
 
-/// Robots that are explained: each is compiled once more.
+use wasmouse_core::Digest;
+use wasmouse_core::game::FaultKind;
+use wasmouse_engine::{Executor, Frame, LocalExecutor};
+
+use super::again::maze_of;
+use super::output::message;
+use super::robots::RobotSpec;
+use crate::contest::{FaultSummary, Plan, Player};
+use crate::report::escape::for_terminal;
+
+/// Robots that get a backtrace: each is compiled once more.
 const ROBOTS_MAX: usize = 5;
 
-/// Tells on standard error where the robots were in their code when they failed first.
-/// The specifications are those of the contest's entrants, in order.
-///
-/// # Errors
-///
-/// When the host fails.
-pub fn tell(
-    contest: &Contest,
-    referee: &Referee,
-    specifications: &[Specification],
-    results: &[MatchResult],
-) -> Result<(), Failure> {
-    let mut last = None;
-    let first_faults = results.iter().filter(|result| {
-        matches!(result.outcome.verdict, Verdict::Fault(_))
-            && last.replace(result.entrant) != Some(result.entrant)
+/// Prints to stderr where robots were in their code when they first failed. `specs` are those of
+/// the plan's entrants, in order. A backtrace is a courtesy: one that cannot be had is skipped.
+pub fn print(
+    plan: &Plan,
+    players: &[Player],
+    specs: &[RobotSpec],
+    executor: &LocalExecutor,
+    faults: &FaultSummary,
+) {
+    let mut seen = BTreeSet::new();
+    let groups = faults.groups().filter(|group| {
+        let fault = group.first.verdict.fault();
+        fault.is_some_and(|it| it.kind != FaultKind::Crash) && seen.insert(group.player)
     });
-    for result in first_faults.take(ROBOTS_MAX) {
-        let entrant = &contest.entrants[result.entrant];
-        let (Verdict::Fault(fault), Ok(player)) = (&result.outcome.verdict, &entrant.admission)
+    for group in groups.take(ROBOTS_MAX) {
+        let player = &players[group.player];
+        let entrant = player.entrants[0];
+        let bytes_max = executor.limits().admission.component_bytes_max;
+        let (Ok(file), Some(maze)) = (specs[entrant].read(bytes_max), maze_of(plan, &group.first))
         else {
             continue;
         };
-        if fault.kind == FaultKind::Crash {
-            continue;
-        }
-        let max = contest.rules.limits.component_bytes_max;
-        // The verdict stands without an explanation.
-        let Ok(bytes) = specifications[result.entrant].read(max) else {
+        let Some(fault) = group.first.verdict.fault() else {
             continue;
         };
-        if Digest::of(&bytes) != entrant.digest {
+        if Digest::of(&file) != *player.robot.digest() {
             continue;
         }
-        let game = contest.game_of(result);
-        let explained = referee.explain(player, &bytes, &game, fault);
-        if let Some(frames) = explained.map_err(Failure::internal)?
+        let spec = plan.spec(plan.key_parts(), player, &maze, group.first.key.seed);
+        let backtrace = executor.backtrace(&player.robot, &file, &spec, fault);
+        if let Ok(Some(frames)) = backtrace
             && !frames.is_empty()
         {
-            tell_frames(&entrant.name, &frames);
+            print_frames(&plan.entrants[entrant].name, &frames);
         }
     }
-    Ok(())
 }
 
-fn tell_frames(robot: &str, frames: &[Frame]) {
-    let mut lines = format!("`{}` was here, the innermost call first:", visible(robot));
+fn print_frames(robot: &str, frames: &[Frame]) {
+    let robot = for_terminal(robot);
+    let mut lines = format!("backtrace of `{robot}` (most recent call first):");
     for (depth, frame) in frames.iter().enumerate() {
-        let function = visible(&frame.function);
+        let function = for_terminal(&frame.function);
         lines.push_str(&format!("\n  {depth:>2}: {function}"));
         if let Some(source) = &frame.source {
-            lines.push_str(&format!(" at {}", visible(source)));
+            lines.push_str(&format!(" at {}", for_terminal(source)));
         } else if let Some(offset) = frame.offset {
-            lines.push_str(&format!(" (byte {offset} of its module)"));
+            lines.push_str(&format!(" at offset {offset:#x}"));
         }
     }
     message!("{lines}");

@@ -19,7 +19,6 @@ use super::failure::Failure;
 use super::output::{self, Existing};
 use super::toolchain::{Toolchain, WASM_TARGET};
 
-
 const EXAMPLES: &str = "\
 Examples:
   wasmouse build                       the project in this folder
@@ -219,9 +218,9 @@ impl Project {
         })?;
         let stdout = child.stdout.take().expect("stdout is piped above");
         let module = self.find_module(BufReader::new(stdout));
-        let status = child
-            .wait()
-            .map_err(|error| Failure::internal(format_args!("failed to wait for cargo: {error}")))?;
+        let status = child.wait().map_err(|error| {
+            Failure::internal(format_args!("failed to wait for cargo: {error}"))
+        })?;
         if !status.success() {
             return Err(
                 Failure::input(format_args!("cargo failed to build `{}`", self.name))
@@ -233,7 +232,11 @@ impl Project {
                 Failure::internal(format_args!("failed to read cargo's messages: {error}"))
             })?
             .ok_or_else(|| {
-                Failure::input(format_args!("`{}` does not build a WebAssembly module", self.name)).hint(
+                Failure::input(format_args!(
+                    "`{}` does not build a WebAssembly module",
+                    self.name
+                ))
+                .hint(
                     "a robot is a library: put `crate-type = [\"cdylib\", \"rlib\"]` under \
                      `[lib]` in its Cargo.toml",
                 )

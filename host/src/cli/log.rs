@@ -1,36 +1,43 @@
 //! `--log`: what robots wrote to their journals, for the people who debug them.
 
-use super::failure::Failure;
-use crate::contest::{Contest, MatchResult};
-use crate::report::escape::for_terminal as visible;
-use crate::robot::{Level, Note, Recorder, Referee};
+use wasmouse_core::journal::{JournalCounts, Level, Note};
+use wasmouse_engine::Executor;
 
-/// Replays every match with a journal and prints its log lines on standard error.
-///
-/// # Errors
-///
-/// When the host fails.
-pub fn print(contest: &Contest, referee: &Referee, results: &[MatchResult]) -> Result<(), Failure> {
-    let mut recorder = Recorder::default();
-    for result in results.iter().filter(|result| result.journal != (0, 0)) {
-        contest
-            .replay(referee, result, &mut recorder)
-            .map_err(Failure::internal)?;
-        let robot = visible(&contest.entrants[result.entrant].name);
-        let maze = visible(&contest.mazes[result.maze].name);
-        message!("journal of `{robot}` in `{maze}`, seed {}:", result.seed);
-        for entry in recorder.journal.entries() {
+use super::again::play_again;
+use super::output::message;
+use crate::contest::{Plan, Player, Results};
+use crate::report::escape::for_terminal;
+
+/// Plays every match that has a journal again and prints its log lines to stderr. Robots do
+/// not influence each other, so a match that cannot be played again is only reported.
+pub fn print(plan: &Plan, players: &[Player], executor: &dyn Executor, results: &Results) {
+    let has_journal = |journal: JournalCounts| journal != JournalCounts::default();
+    for record in results.matches.iter().filter(|it| has_journal(it.journal)) {
+        let names = results.names();
+        let robot = for_terminal(names.robot(&record.key));
+        let maze = for_terminal(names.maze_name(&record.key));
+        let seed = record.key.seed;
+        let replayed = match play_again(plan, players, executor, record) {
+            Ok(Some(replayed)) => replayed,
+            Ok(None) => continue,
+            Err(error) => {
+                message!("warning: no log of `{robot}` in `{maze}`, seed {seed}: {error}");
+                continue;
+            }
+        };
+        message!("log of `{robot}` in `{maze}`, seed {seed}:");
+        let journal = &replayed.detailed.recording.journal;
+        for entry in journal.entries() {
             if let Note::Log { level, text } = entry.note {
                 let level = level_name(level);
-                message!("{:>6} {level:<7} {}", entry.step, visible(text));
+                message!("{:>6} {level:<7} {}", entry.step, for_terminal(text));
             }
         }
-        let dropped = recorder.journal.dropped();
+        let dropped = record.journal.dropped;
         if dropped > 0 {
-            message!("       {dropped} more entries did not fit the journal's limit");
+            message!("       {dropped} more entries exceeded the journal limit");
         }
     }
-    Ok(())
 }
 
 const fn level_name(level: Level) -> &'static str {

@@ -87,7 +87,9 @@ pub fn load(
         let may_skip = is_folder && bad_files == BadFiles::Skip;
         sources.extend(resolve(argument)?.into_iter().map(|it| (it, may_skip)));
     }
-    let stdins = sources.iter().filter(|(source, _)| *source == Source::Stdin);
+    let stdins = sources
+        .iter()
+        .filter(|(source, _)| *source == Source::Stdin);
     if stdins.count() > 1 {
         return Err(Failure::usage("standard input is given as a maze twice"));
     }
@@ -117,7 +119,35 @@ pub fn load(
     Ok(mazes)
 }
 
-/// One maze that a specification names, not yet read.
+/// A maze with the name that results call it.
+#[derive(Clone, Debug)]
+pub struct NamedMaze {
+    /// The bundled name, the specification of a generated maze, or the file name without its
+    /// extension. Two files of the same name in different folders are named by their paths
+    /// instead.
+    pub name: String,
+    /// The maze.
+    pub maze: Arc<Maze>,
+}
+
+/// Reads and generates the mazes that the arguments name, in their order.
+///
+/// # Errors
+///
+/// As [`load`] with [`BadFiles::Fail`].
+pub fn load_all(arguments: &[String], rules: Legality) -> Result<Vec<NamedMaze>, Failure> {
+    let sources = load(arguments, rules, BadFiles::Fail)?;
+    let named = sources.into_iter().map(|source| match source {
+        MazeSource::Loaded { name, maze } => NamedMaze { name, maze },
+        MazeSource::Generated(generated) => NamedMaze {
+            name: generated.to_string(),
+            maze: Arc::new(generated.generate()),
+        },
+    });
+    Ok(named.collect())
+}
+
+/// One maze that an argument names, not yet read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
     /// A generated maze.
@@ -386,7 +416,10 @@ mod tests {
     #[test]
     fn generated_mazes_are_named_by_their_own_specification() {
         let specs = ["gen:tree:12:1..=2".to_owned()];
-        assert_eq!(names(&specs), ["gen:tree,loops=12:12:1", "gen:tree,loops=12:12:2"]);
+        assert_eq!(
+            names(&specs),
+            ["gen:tree,loops=12:12:1", "gen:tree,loops=12:12:2"]
+        );
     }
 
     #[test]

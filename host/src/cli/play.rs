@@ -64,4 +64,3 @@ pub fn play_all(
 pub fn is_interrupted() -> Result<bool, Failure> {
     Ok(interrupt::listen()?.load(Ordering::Relaxed))
 }
-

@@ -1,82 +1,85 @@
-//! `wasmouse run --twice`: all matches once more, with as little in common with the
-//! first time as possible.
+//! `wasmouse run --reproduce`: all matches once more, with as little in common with the first
+//! time as possible.
 //!
-//! The second time has its own engine and workers, robots that are read and compiled
-//! anew, another number of threads, and the matches from the last to the first.
+//! The second time has its own engine and workers, robots that are read and compiled again,
+//! another number of threads, and mazes and robots in reverse order.
 
-use std::sync::atomic::Ordering;
+use std::collections::HashMap;
+
+use wasmouse_core::record::{MatchKey, MatchRecord};
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::robots::{self, Specification};
-use super::setup::{IsolationArgs, independent_referee};
-use super::{interrupt, run};
-use crate::contest::{Contest, Played, standings};
-use crate::report::result::{ContestReport, Verification};
+use super::output::message;
+use super::play::{is_interrupted, play_all};
+use super::robots::{self, RobotSpec};
+use super::setup::{IsolationArgs, independent_executor};
+use crate::contest::{Plan, RecordList, Results, differences};
+use crate::report::verification::{Difference, MatchName};
 
-/// Differences that a message lists.
+/// Differences that are listed.
 const LISTED_MAX: usize = 20;
 
-/// Plays a contest a second time. Interrupted when it did not get to the end; what
-/// it got to was the same then.
+/// Plays a contest a second time and compares.
 ///
 /// # Errors
 ///
-/// When anything is not the same.
+/// When the host fails.
 pub fn check(
-    contest: &Contest,
-    played: &Played,
-    specifications: &[Specification],
-    threads: usize,
+    plan: &Plan,
+    results: &Results,
+    specs: &[RobotSpec],
+    jobs: usize,
     isolation: &IsolationArgs,
 ) -> Result<Exit, Failure> {
-    let is_interrupted = || Ok(interrupt::listen()?.load(Ordering::Relaxed));
-    if is_interrupted()? {
-        return Ok(Exit::Interrupted);
-    }
-    let threads = if threads > 1 { threads - 1 } else { 2 };
-    let referee = independent_referee(contest.rules, threads, isolation)?;
-    let again = Contest {
-        entrants: robots::load(specifications, &referee)?,
-        mazes: contest.mazes.clone(),
-        seeds: contest.seeds.clone(),
-        rules: contest.rules,
+    let jobs = if jobs > 1 { jobs - 1 } else { 2 };
+    let executor = independent_executor(plan.rules.clone(), jobs, isolation)?;
+    let reversed: Vec<RobotSpec> = specs.iter().rev().cloned().collect();
+    let again = Plan {
+        entrants: robots::load(&reversed, &executor)?,
+        mazes: plan.mazes.iter().rev().cloned().collect(),
+        seeds: plan.seeds,
+        rules: plan.rules.clone(),
     };
-    let lines = standings(contest, &played.results);
-    let first = ContestReport::new(contest, played, &lines);
-    let mut verification = Verification::new(&first);
-    let schedule = verification.schedule(&again);
-    let mut pairings = schedule.pairings();
-    pairings.reverse();
-    let mut second = run::play_only(&again, &pairings, &referee, threads)?;
-    second.results.reverse();
-    second.failed.reverse();
-    let bytes = first.to_json().into_bytes();
-    let unplayed = verification.compare(&again, &schedule, second, &bytes);
-    let differences = verification.differences();
-    if differences.count() > 0 {
-        let told = differences.kept().iter().take(LISTED_MAX);
-        let mut message = "the same contest played twice was not the same:".to_owned();
-        for difference in told {
-            message.push_str(&format!("\n  {}", difference.told("first", "then")));
+    let mut list = RecordList::new(u64::MAX);
+    play_all(&again, &executor, jobs, &mut list)?;
+    let found = list.into_records().unwrap_or_default();
+    let found: HashMap<MatchKey, MatchRecord> = found
+        .into_iter()
+        .map(|record| (record.key, record))
+        .collect();
+
+    let names = results.names();
+    let (mut count, mut missing) = (0, 0);
+    for record in &results.matches {
+        let Some(found) = found.get(&record.key) else {
+            missing += 1;
+            continue;
+        };
+        for field in differences(record, found) {
+            count += 1;
+            if count <= LISTED_MAX {
+                let of = Some(MatchName::new(&names, &record.key));
+                message!("not reproducible: {}", Difference { of, field });
+            }
         }
-        if differences.count() > LISTED_MAX {
-            let rest = differences.count() - LISTED_MAX;
-            message.push_str(&format!("\n  and {rest} more"));
-        }
-        return Err(Failure::internal(message).hint(
-            "a damaged cache of compiled robots (try --no-cache), a faulty machine, or a \
-             bug of wasmouse",
-        ));
-    }
-    if let Some(failed) = unplayed.failed.first() {
-        let message = format!("a match was not played a second time: {failed}");
-        return Err(Failure::internal(message));
     }
     if is_interrupted()? {
-        let missing = unplayed.missing;
         message!("interrupted: {missing} matches were not played a second time");
         return Ok(Exit::Interrupted);
     }
+    if missing > 0 {
+        let message = format!("{missing} matches could not be played a second time");
+        return Err(Failure::internal(message));
+    }
+    if count > 0 {
+        message!(
+            "error: {count} values differ when the contest is played again\n\n\
+             hint: a damaged cache of compiled robots (try --no-cache), a faulty machine, or a \
+             bug in wasmouse"
+        );
+        return Ok(Exit::CheckFailed);
+    }
+    message!("reproduced {} matches", results.matches.len());
     Ok(Exit::Success)
 }

@@ -2,13 +2,14 @@
 
 use std::fmt::Write as _;
 
+use wasmouse_engine::bundled::bundled;
+
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
 use crate::report::bundled::BundledReport;
-use crate::robot::bundled::bundled;
 
-/// List the bundled robots and their settings.
+/// List the bundled robots and their variants
 #[derive(clap::Args, Debug)]
 pub struct Args {
     /// Print JSON
@@ -26,13 +27,9 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     for robot in bundled() {
         let written = writeln!(text, "{:<16} {}", robot.name, robot.description);
         written.expect("writing to a string cannot fail");
-        for setting in robot.settings {
-            let name = format!("{}:{}", robot.name, setting.value);
-            let written = writeln!(
-                text,
-                "  {name:<20} {}: {}",
-                setting.name, setting.description
-            );
+        for variant in robot.variants {
+            let name = format!("{}:{}", robot.name, variant.name);
+            let written = writeln!(text, "  {name:<22} {}", variant.description);
             written.expect("writing to a string cannot fail");
         }
     }

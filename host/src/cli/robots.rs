@@ -473,7 +473,10 @@ mod tests {
             .collect();
         assert_eq!(names, ["a", "b"]);
         let failure = resolve(&format!("ann={argument}")).expect_err("two robots, one name");
-        assert!(failure.to_string().contains("more than one robot"), "{failure}");
+        assert!(
+            failure.to_string().contains("more than one robot"),
+            "{failure}"
+        );
     }
 
     #[test]

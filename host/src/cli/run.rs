@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use wasmouse_core::maze::bundled as bundled_mazes;
+use wasmouse_engine::LocalExecutor;
 
 use super::exit::Exit;
 use super::failure::Failure;
@@ -14,15 +15,16 @@ use super::output::{self, Draft, Existing, Stdout, message};
 use super::play::play_all;
 use super::robots::{self, RobotSpec};
 use super::setup::{IsolationArgs, SetupArgs};
+use super::verdict::{exit, print_faults};
 use super::{backtrace, log, page, reproduce, terminal, watch};
 use crate::contest::{
     BestMatches, ContestInfo, FaultSummary, Plan, Player, RESULTS_VERSION, RecordList, Results,
-    Seeds, Sink, StandingsBuilder, SummaryBuilder, Tee,
+    Seeds, Sink, StandingsBuilder, Summary, SummaryBuilder, Tee,
 };
 use crate::report::escape::for_terminal;
 use crate::report::jsonl::JsonLines;
 use crate::report::results_json::ResultsWriter;
-use crate::report::{faults, table};
+use crate::report::table;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -144,10 +146,10 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     if !args.json {
         args.print_tables(&plan, results)?;
     }
-    print_faults(&plan, &players, &played.faults);
-    if let Some(html) = html {
+    print_faults(&plan, &players, results, &played.faults);
+    if let (Some(html), Some(path)) = (html, &args.html) {
         let best = played.best.map(BestMatches::into_best).unwrap_or_default();
-        page::write(html, args.html.as_deref(), results, &players, &best)?;
+        page::write(html, path, results, &players, &best)?;
     }
     let exit = exit(&plan, results);
     if exit == Exit::Interrupted {
@@ -180,63 +182,6 @@ struct Played {
     best: Option<BestMatches>,
 }
 
-/// The exit code that goes with results; says on stderr what was not played.
-pub fn exit(plan: &Plan, results: &Results) -> Exit {
-    let summary = &results.summary;
-    let names = results.names();
-    for failure in &summary.failures {
-        let (robot, maze) = (names.robot(&failure.key), names.maze_name(&failure.key));
-        message!(
-            "error: `{}` in `{}`, seed {}, was not played: {}",
-            for_terminal(robot),
-            for_terminal(maze),
-            failure.key.seed,
-            for_terminal(&failure.reason)
-        );
-    }
-    let planned = results.contest.matches_planned;
-    let ended = summary.matches + summary.failures.len() as u64;
-    if ended < planned {
-        let standings = &summary.standings;
-        message!(
-            "interrupted after {ended} of {planned} matches; standings cover the {} of {} mazes \
-             that every robot has played",
-            standings.mazes,
-            plan.mazes.len()
-        );
-        return Exit::Interrupted;
-    }
-    let lines = || summary.standings.lines.iter();
-    if !summary.failures.is_empty() {
-        Exit::Internal
-    } else if plan.entrants.iter().any(|it| it.admission.is_err())
-        || lines().any(|line| line.faults > 0)
-    {
-        Exit::Robot
-    } else if planned > 0 && lines().all(|line| line.finished == 0) {
-        Exit::NoneFinished
-    } else {
-        Exit::Success
-    }
-}
-
-/// Reports on stderr why robots were rejected or faulted.
-pub fn print_faults(plan: &Plan, players: &[Player], summary: &FaultSummary) {
-    for entrant in &plan.entrants {
-        if let Err(rejection) = &entrant.admission {
-            message!(
-                "rejected `{}`: {}\n  hint: {}",
-                for_terminal(&entrant.name),
-                for_terminal(&rejection.to_string()),
-                rejection.hint()
-            );
-        }
-    }
-    for line in faults::lines(plan, players, summary) {
-        message!("{line}");
-    }
-}
-
 impl Args {
     /// Which arguments are robots and which are mazes.
     fn sort_arguments(&self) -> Result<(Vec<RobotSpec>, Vec<String>), Failure> {
@@ -266,10 +211,8 @@ impl Args {
         let unknown = self.arguments.iter().find(|it| !Path::new(it).exists());
         match unknown {
             None => Failure::usage("no robot specified").hint(robots::unknown_hint("")),
-            Some(argument) => {
-                Failure::usage(format!("unknown robot `{}`", for_terminal(argument)))
-                    .hint(robots::unknown_hint(argument))
-            }
+            Some(argument) => Failure::usage(format!("unknown robot `{}`", for_terminal(argument)))
+                .hint(robots::unknown_hint(argument)),
         }
     }
 
@@ -295,7 +238,7 @@ impl Args {
         &self,
         plan: &Plan,
         players: &[Player],
-        executor: &wasmouse_engine::LocalExecutor,
+        executor: &LocalExecutor,
         jobs: usize,
         file: Option<Draft>,
     ) -> Result<Played, Failure> {
@@ -314,7 +257,9 @@ impl Args {
             .map(|draft| FileWriter::new(draft, path, &contest))
             .transpose()
             .map_err(file_failed)?;
-        let stdout = self.json.then(|| ResultsWriter::new(Stdout::default(), &contest));
+        let stdout = self
+            .json
+            .then(|| ResultsWriter::new(Stdout::default(), &contest));
         let mut stdout = stdout
             .transpose()
             .map_err(|error| output::stdout_failure(&error))?;
@@ -348,15 +293,22 @@ impl Args {
     }
 
     fn print_tables(&self, plan: &Plan, results: &Results) -> Result<(), Failure> {
-        let style = terminal::table_style(self.ascii);
+        let layout = terminal::table_layout(self.ascii);
+        let (contest, summary) = (&results.contest, &results.summary);
         let played = results.summary.matches;
         let is_listed = self.matches || played <= LISTED_MAX;
         if is_listed && played > 0 {
-            output::print(&table::matches(results, style))?;
+            output::print(&table::matches(
+                contest,
+                &summary.mazes,
+                &results.matches,
+                layout,
+            ))?;
         }
         if plan.entrants.len() > 1 || played > 1 {
             let separator = if is_listed { "\n" } else { "" };
-            output::print(&format!("{separator}{}", table::standings(results, style)))?;
+            let standings = table::standings(contest, &summary.standings, layout);
+            output::print(&format!("{separator}{standings}"))?;
         }
         if !is_listed {
             message!("{played} matches were played; --matches lists them, -o FILE stores them");
@@ -387,7 +339,7 @@ impl FileWriter {
         }
     }
 
-    fn finish(self, summary: &crate::contest::Summary) -> io::Result<Draft> {
+    fn finish(self, summary: &Summary) -> io::Result<Draft> {
         match self {
             Self::Document(writer) => writer.finish(summary),
             Self::Lines(writer) => writer.finish(),

@@ -15,6 +15,7 @@ mod run;
 mod sink;
 mod standings;
 mod tally;
+mod verify;
 
 pub use best::{BestMatch, BestMatches};
 pub use difference::{FieldDifference, differences};
@@ -30,3 +31,4 @@ pub use run::{Options, RunError, run};
 pub use sink::{ContestMatch, MatchFailure, RecordList, Sink, Tee};
 pub use standings::{Standing, Standings, StandingsBuilder};
 pub use tally::{Regret, Tally};
+pub use verify::{Compared, compare};

@@ -5,10 +5,10 @@ use std::fmt::Write as _;
 use super::super::exit::Exit;
 use super::super::failure::Failure;
 use super::super::mazes::{self, Source};
-use super::super::output;
+use super::super::output::{self, message};
+use crate::report::maze_check::{CheckedMaze, MazeCheck};
 use wasmouse_core::maze::format::Format;
 use wasmouse_core::maze::{Maze, Survey, Violation, violations};
-use crate::report::maze_check::{CheckedMaze, MazeCheck};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -169,7 +169,7 @@ fn json(checked: &[Checked], summary: bool, survey: &Survey) -> String {
         let source = checked.label.clone();
         match &checked.outcome {
             Ok(judged) => CheckedMaze::read(source, &judged.maze, judged.format, &judged.broken),
-            Err(failure) => CheckedMaze::refused(source, failure.message().to_owned()),
+            Err(failure) => CheckedMaze::unreadable(source, failure.message().to_owned()),
         }
     });
     MazeCheck::new((!summary).then(|| mazes.collect()), survey).to_json()
