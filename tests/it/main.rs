@@ -16,6 +16,8 @@ mod cli;
 mod confinement;
 /// The rules: recorded games and games written by hand.
 mod conformance;
+/// The core: few dependencies, and compiled for WebAssembly.
+mod core_crate;
 /// The same bytes from the same contest.
 mod determinism;
 /// Every bundled robot: native and component alike, and who has to finish.

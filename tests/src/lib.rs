@@ -8,3 +8,4 @@ pub mod corpus;
 pub mod fuzz;
 pub mod module;
 pub mod program;
+pub mod wasm_target;

@@ -1,4 +1,4 @@
-//! Block maps: the maze of the sketch-city report, one character a block.
+//! Block maps: the format of the sketch-city report, one character per block.
 //!
 //! ```text
 //! 1111111      `1` is a wall and `0` is open; the first line is the top
@@ -10,13 +10,12 @@
 //! 1111111
 //! ```
 //!
-//! So a maze of n x n cells has 2n + 1 lines of 2n + 1 characters. A post stays
-//! where no wall touches it, and a cell without an exit stays open: other blocks
-//! would be places where a robot of this contest cannot stand, or where it could
-//! pass without crossing an edge of a cell, so they are refused. The example in the
-//! report is 2 cells wide and 3 high; mazes are square here.
+//! A maze of n x n cells has 2n + 1 lines of 2n + 1 characters. A post is `1` even if no
+//! wall touches it, and a cell is `0` even if it has no exit. Other files are rejected:
+//! their robots could stand where a robot of this contest cannot, or pass where no edge of
+//! a cell is. The example in the report is 2 cells wide and 3 high; here, mazes are square.
 //!
-//! The start is (0, 0) and the goal the centre; the format has no marks.
+//! The start is always (0, 0) and the goal the centre.
 
 use super::super::{Cell, Heading, Maze, Walls};
 use super::ParseError;
@@ -44,58 +43,51 @@ pub(super) fn parse(lines: &[Line<'_>]) -> Result<Maze, ParseError> {
     Ok(Maze::contest(walls)?)
 }
 
-/// Reads a row of posts and horizontal walls, the `above`-th from the top.
+/// Parses a row of posts and horizontal walls, the `above`-th from the top.
 fn wall_blocks(row: &Row<'_>, above: usize, walls: &mut Walls) -> Result<(), ParseError> {
     let dimension = walls.dimension();
-    let perimeter = above == 0 || above == usize::from(dimension);
+    let is_perimeter = above == 0 || above == usize::from(dimension);
     for x in 0..dimension {
         let left = usize::from(x) * DRAWING.cell_width;
-        if perimeter {
-            closed(row, left)?;
-            closed(row, left + 1)?;
+        let is_post = !is_perimeter && x > 0;
+        expect(row, left, '1', if is_post { POST } else { PERIMETER })?;
+        if is_perimeter {
+            expect(row, left + 1, '1', PERIMETER)?;
         } else {
-            post(row, left, x == 0)?;
             let wall = wall(row, left + 1)?;
             walls.set(Cell::new(x, cell_row(dimension, above)), Heading::Up, !wall);
         }
     }
-    closed(row, usize::from(dimension) * DRAWING.cell_width)
+    let right = usize::from(dimension) * DRAWING.cell_width;
+    expect(row, right, '1', PERIMETER)
 }
 
-/// Reads a row of cells and vertical walls, the `above`-th from the top.
+/// Parses a row of cells and vertical walls, the `above`-th from the top.
 fn cell_blocks(row: &Row<'_>, above: usize, walls: &mut Walls) -> Result<(), ParseError> {
     let dimension = walls.dimension();
     let y = cell_row(dimension, above);
     for x in 0..dimension {
         let left = usize::from(x) * DRAWING.cell_width;
         if x == 0 {
-            closed(row, left)?;
+            expect(row, left, '1', PERIMETER)?;
         } else {
             let wall = wall(row, left)?;
             walls.set(Cell::new(x, y), Heading::Left, !wall);
         }
-        if row.at(left + 1) != Some('0') {
-            return Err(row.unexpected(left + 1, "`0` (a cell is open)"));
-        }
+        expect(row, left + 1, '0', "`0` (a cell is open)")?;
     }
-    closed(row, usize::from(dimension) * DRAWING.cell_width)
+    let right = usize::from(dimension) * DRAWING.cell_width;
+    expect(row, right, '1', PERIMETER)
 }
 
-fn closed(row: &Row<'_>, index: usize) -> Result<(), ParseError> {
-    if row.at(index) == Some('1') {
-        return Ok(());
-    }
-    Err(row.unexpected(index, "`1` (the perimeter is closed)"))
-}
+const PERIMETER: &str = "`1` (the perimeter is closed)";
+const POST: &str = "`1` (a post)";
 
-fn post(row: &Row<'_>, index: usize, perimeter: bool) -> Result<(), ParseError> {
-    if perimeter {
-        return closed(row, index);
+fn expect(row: &Row<'_>, index: usize, block: char, expected: &str) -> Result<(), ParseError> {
+    match row.at(index) {
+        Some(found) if found == block => Ok(()),
+        _ => Err(row.unexpected(index, expected)),
     }
-    if row.at(index) == Some('1') {
-        return Ok(());
-    }
-    Err(row.unexpected(index, "`1` (a post)"))
 }
 
 /// Whether the block between two cells is a wall.

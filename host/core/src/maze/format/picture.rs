@@ -1,4 +1,5 @@
-//! The picture that competition text and simulator maps have in common.
+//! Pictures: competition text, the format of public micromouse maze collections, and the
+//! text map of micromouse simulators such as mms.
 //!
 //! ```text
 //! o---o---o---o      rows of posts and horizontal walls, the top first
@@ -9,6 +10,10 @@
 //! | S |       |
 //! o---o---o---o
 //! ```
+//!
+//! [`Style`] has the differences. In both styles `S` marks the start and `G` the goal cells.
+//! Without `S` the start is (0, 0), without `G` the goal is the centre (training mazes have
+//! neither).
 
 use super::super::{Area, Cell, Heading, Maze, Walls};
 use super::ParseError;
@@ -24,12 +29,14 @@ const DRAWING: Drawing = Drawing {
 /// Characters from one post to the next.
 const CELL_WIDTH: usize = 4;
 
-/// Which of the two picture formats is read or printed.
+/// Which of the two formats is parsed or printed.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Style {
-    /// Posts `o`, walls `---` and `|`, marks `S` and `G`.
+    /// Posts `o`, walls `---` and `|`. Both marks are always printed.
     Competition,
-    /// Any visible character is a wall, any character is a post.
+    /// Any visible character is a wall; any character is a post, even a space, because
+    /// simulators look at the walls only. Printed with posts `+` and without marks, which
+    /// are not part of the format.
     Map,
 }
 
@@ -80,7 +87,7 @@ pub(super) fn parse(lines: &[Line<'_>], style: Style) -> Result<Maze, ParseError
     picture.finish()
 }
 
-/// A maze while its picture is being read.
+/// A maze while its picture is parsed.
 struct Picture {
     style: Style,
     walls: Walls,
@@ -89,7 +96,7 @@ struct Picture {
 }
 
 impl Picture {
-    /// Reads a row of posts and horizontal walls, the `above`-th from the top.
+    /// Parses a row of posts and horizontal walls, the `above`-th from the top.
     fn posts(&mut self, row: &Row<'_>, above: usize) -> Result<(), ParseError> {
         let rows = usize::from(self.walls.dimension());
         let perimeter = above == 0 || above == rows;
@@ -100,7 +107,9 @@ impl Picture {
             for index in [left + 2, left + 3] {
                 if self.wall(row, index, '-', perimeter)? != wall {
                     let expected = if wall { "`-`" } else { "a space" };
-                    return Err(row.unexpected(index, format!("{expected} as before it")));
+                    return Err(
+                        row.unexpected(index, format!("{expected} like the character before"))
+                    );
                 }
             }
             if !perimeter {
@@ -111,7 +120,7 @@ impl Picture {
         self.post(row, rows * CELL_WIDTH)
     }
 
-    /// Reads a row of cells and vertical walls, the `above`-th from the top.
+    /// Parses a row of cells and vertical walls, the `above`-th from the top.
     fn cells(&mut self, row: &Row<'_>, above: usize) -> Result<(), ParseError> {
         let dimension = self.walls.dimension();
         let y = cell_row(dimension, above);
@@ -135,7 +144,7 @@ impl Picture {
         }
     }
 
-    /// Whether a wall, `drawn` in competition text, stands at that place.
+    /// Whether there is a wall, which competition text draws as `drawn`.
     fn wall(
         &self,
         row: &Row<'_>,
@@ -154,7 +163,7 @@ impl Picture {
         }
     }
 
-    /// Reads the three characters inside a cell.
+    /// Parses the three characters inside a cell.
     fn inside(&mut self, row: &Row<'_>, index: usize, cell: Cell) -> Result<(), ParseError> {
         for index in [index, index + 2] {
             if row.at(index) != Some(' ') {
@@ -183,7 +192,7 @@ impl Picture {
         let start = self.start.unwrap_or(Cell::new(0, 0));
         let goal = match Area::bounding(&self.goal) {
             None => Area::center(self.walls.dimension()),
-            // Every cell is seen once, so equal numbers mean a filled rectangle.
+            // No cell is listed twice, so equal counts mean a filled rectangle.
             Some(area) if area.cells().count() == self.goal.len() => area,
             Some(_) => return Err(ParseError::GoalShape(self.goal)),
         };

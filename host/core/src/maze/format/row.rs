@@ -1,26 +1,25 @@
-//! Lines looked at character by character, for the formats that draw the maze.
+//! Lines as rows of characters, for the formats that draw the maze.
 //!
-//! Shared by the pictures and by the block maps: every cell is as many characters
-//! wide, a row of walls stands between two rows of cells, and the picture begins
-//! and ends with a wall. What the characters mean is the business of each format.
+//! Pictures and block maps share this layout: all cells have the same width, rows of walls
+//! and rows of cells alternate, and the drawing starts and ends with a wall. Each format
+//! defines what the characters mean.
 
 use super::super::DIMENSIONS;
 use super::ParseError;
 use super::text::{Line, quoted, quoted_character};
 
-/// How a format draws, for the measures of a drawing and for messages about them.
+/// The layout of a format, and the words for it in messages.
 pub(super) struct Drawing {
     /// Characters from one vertical wall to the next.
     pub(super) cell_width: usize,
-    /// What the first line has to be, in words.
+    /// What the first line has to be.
     pub(super) first_line: &'static str,
-    /// What a row of walls is called.
+    /// The name of a row of walls.
     pub(super) wall_row: &'static str,
 }
 
 impl Drawing {
-    /// The side of the maze, from the length of the first line and the number of
-    /// lines.
+    /// The size of the maze, from the length of the first line and the number of lines.
     pub(super) fn dimension(&self, lines: &[Line<'_>]) -> Result<u8, ParseError> {
         let first = Row::new(&lines[0]);
         let columns = first.characters.len() / self.cell_width;
@@ -32,8 +31,8 @@ impl Drawing {
             .filter(|columns| DIMENSIONS.contains(columns))
             .ok_or(ParseError::Dimension { cells: columns })?;
         let rows = lines.len() / 2;
-        // A line of another length below the picture is a remark; one of the same
-        // length is a further row of it.
+        // Below the picture, a line of another length is a comment; one of the same length
+        // is another row.
         if let Some([last, line]) = lines.get(columns * 2..=columns * 2 + 1)
             && (Row::new(line).characters.len() != Row::new(last).characters.len()
                 || lines.len().is_multiple_of(2))
@@ -53,7 +52,7 @@ impl Drawing {
         Ok(dimension)
     }
 
-    /// Requires the line to end after that many cells and a wall.
+    /// Checks that the line ends after that many cells and a wall.
     pub(super) fn end(&self, row: &Row<'_>, columns: usize) -> Result<(), ParseError> {
         let length = columns * self.cell_width + 1;
         if row.characters.len() <= length {
@@ -65,7 +64,7 @@ impl Drawing {
     }
 }
 
-/// One line, with access by character.
+/// A line with access by character.
 pub(super) struct Row<'a> {
     line: Line<'a>,
     characters: Vec<char>,
@@ -84,12 +83,12 @@ impl<'a> Row<'a> {
         self.line.number()
     }
 
-    /// The character at that place, counted from 0; `None` past the end.
+    /// The character at `index`, counted from 0; `None` past the end.
     pub(super) fn at(&self, index: usize) -> Option<char> {
         self.characters.get(index).copied()
     }
 
-    /// The error that `expected` does not stand at that place.
+    /// The error that `expected` is not at `index`.
     pub(super) fn unexpected(&self, index: usize, expected: impl Into<String>) -> ParseError {
         let found = quoted_character(self.at(index));
         self.line.unexpected(index, expected, found)
