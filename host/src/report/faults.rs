@@ -32,3 +32,43 @@ pub fn faults(summary: &FaultSummary, names: &Names<'_>, matches: impl Fn(usize)
     }
     text
 }
+
+#[cfg(test)]
+mod tests {
+    use wasmouse_core::record::Transcript;
+
+    use super::super::sample::results;
+    use super::*;
+    use crate::contest::{ContestMatch, Sink as _};
+
+    #[test]
+    fn a_kind_of_fault_has_one_line() {
+        let results = results();
+        let mut summary = FaultSummary::default();
+        for record in results.matches.iter().cycle().take(8) {
+            let (record, transcript) = (record.clone(), Transcript::default());
+            let played = ContestMatch {
+                player: 1,
+                record,
+                transcript,
+            };
+            summary.played(&played).expect("it only counts");
+        }
+        let text = faults(
+            &summary,
+            &results.names(),
+            |player| if player == 1 { 8 } else { 0 },
+        );
+        let (begin, end) = (
+            "fault: `<b>\\u{1b}[31m",
+            "`: panic in 2 of 8 matches, first in `test_maze_01`, seed 18446744073709551615: \
+             panicked: <b>\\u{1b}[31m",
+        );
+        assert!(text.starts_with(begin) && text.contains(end), "{text}");
+        assert!(
+            text.ends_with(" in step 5 (exploration run, at (0, 3))\n"),
+            "{text}"
+        );
+        assert_eq!(text.lines().count(), 1, "{text}");
+    }
+}

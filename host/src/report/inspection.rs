@@ -136,7 +136,8 @@ impl<'a> InspectionReport<'a> {
         if let Some(wit) = self.wit {
             text.push(format_args!("  world"));
             for line in wit.lines() {
-                text.push(format_args!("    {}", for_terminal(line)));
+                let line = format!("    {}", for_terminal(line));
+                text.push(format_args!("{}", line.trim_end()));
             }
         }
         if measures && let Some(all) = &self.measures {
@@ -176,5 +177,67 @@ impl Lines {
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use wasmouse_engine::{Executor as _, InProcess, bundled};
+
+    use super::*;
+
+    fn texts(name: &str, file: &[u8]) -> [String; 3] {
+        let limits = Limits::default();
+        let executor = InProcess::new(limits, 1, None).expect("address space");
+        let inspection = executor.inspect(file).expect("the host works");
+        let report = InspectionReport::new(name, &inspection, &limits);
+        [
+            report.to_text(false),
+            report.to_text(true),
+            report.to_json(),
+        ]
+    }
+
+    #[test]
+    fn the_first_line_says_whether_a_file_is_admitted() {
+        let flood = bundled::find("flood").expect("it is bundled");
+        let [text, measures, json] = texts("flood", flood.component);
+        assert!(
+            text.starts_with("`flood` is admitted\n  kind      component, "),
+            "{text}"
+        );
+        assert!(
+            text.contains("\n  exports   wasmouse:robot/controller@"),
+            "{text}"
+        );
+        assert!(!text.contains("loop_nesting"), "{text}");
+        let table = measures
+            .strip_prefix(&text)
+            .expect("the same, and the measures");
+        assert_eq!(table.lines().count(), 1 + Measure::all().count(), "{table}");
+        let json: serde_json::Value = serde_json::from_str(&json).expect("it is JSON");
+        assert_eq!(json["admitted"], true);
+        assert_eq!(
+            json["measures"].as_array().map(Vec::len),
+            Some(Measure::all().count())
+        );
+        assert_eq!(json["digest"], flood.sha256);
+        assert!(json["requirements"]["memory_bytes"].is_u64());
+    }
+
+    #[test]
+    fn a_rejection_comes_with_its_hint() {
+        let [text, _, json] = texts("bot\u{1b}", b"\0asm");
+        let begin = "`bot\\u{1b}` is rejected: ";
+        assert!(
+            text.starts_with(begin) && text.contains("\n\nhint: "),
+            "{text}"
+        );
+        let json: serde_json::Value = serde_json::from_str(&json).expect("it is JSON");
+        assert_eq!(json["rejection"]["kind"], "not-wasm");
+        assert_eq!(
+            (&json["admitted"], &json["requirements"]),
+            (&false.into(), &().into())
+        );
     }
 }

@@ -34,3 +34,32 @@ impl<W: io::Write + Send> Sink for JsonLines<W> {
         self.0.write_all(line.as_bytes())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use wasmouse_core::record::{MatchRecord, Transcript};
+
+    use super::super::sample::results;
+    use super::*;
+
+    #[test]
+    fn every_match_has_a_line() {
+        let records = results().matches;
+        let mut lines = JsonLines::new(Vec::new());
+        for record in &records {
+            let (record, transcript) = (record.clone(), Transcript::default());
+            let played = ContestMatch {
+                player: 0,
+                record,
+                transcript,
+            };
+            lines.played(&played).expect("memory takes everything");
+        }
+        let bytes = lines.finish().expect("memory takes everything");
+        let text = String::from_utf8(bytes).expect("JSON is UTF-8");
+        assert!(text.ends_with('\n') && !text.contains(['\u{1b}', '\u{2028}']));
+        let read = text.lines().map(serde_json::from_str);
+        let read: Vec<MatchRecord> = read.collect::<Result<_, _>>().expect("records");
+        assert_eq!(read, records);
+    }
+}

@@ -18,6 +18,8 @@ pub mod page;
 mod paths;
 pub mod picture;
 pub mod results_json;
+#[cfg(test)]
+mod sample;
 mod standings;
 pub mod table;
 pub mod verification;

@@ -91,3 +91,67 @@ const fn paint(color: Color) -> Option<Paint> {
         Color::Gray => Paint::Gray,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use wasmouse_core::game::{Action, GameRules};
+    use wasmouse_core::maze::{Cell, Turn, Walls};
+    use wasmouse_core::record::{Transcript, trace};
+
+    use super::super::picture::TextStyle;
+    use super::*;
+
+    #[test]
+    fn a_moment_shows_what_the_robot_believed_by_then() {
+        let maze = Maze::contest(Walls::open(4)).expect("start and goal fit");
+        let mut transcript = Transcript::default();
+        for turn in [Turn::Right, Turn::Left, Turn::Straight] {
+            transcript.push(Action::Move { turn, advance: 1 });
+        }
+        let rules = GameRules {
+            budget: 3,
+            ..GameRules::default()
+        };
+        let (_, trace) = trace(&maze, &rules, &transcript).expect("three steps");
+        let mut journal = Journal::default();
+        journal.clear(1000);
+        let text = |journal: &Journal, steps| {
+            moment(&maze, &trace, journal, steps).to_text(TextStyle::ASCII)
+        };
+        assert!(text(&journal, 0).ends_with("| ^             |\no---o---o---o---o\n"));
+        let cell = Cell::new(3, 0);
+        for (step, note) in [
+            (0, Note::Label { cell, text: "ab" }),
+            (
+                1,
+                Note::Paint {
+                    cell,
+                    color: Color::Red,
+                },
+            ),
+            (
+                2,
+                Note::Wall {
+                    cell,
+                    side: Heading::Left,
+                    belief: Belief::Closed,
+                },
+            ),
+            (3, Note::Label { cell, text: "late" }),
+        ] {
+            journal.push(step, note);
+        }
+        let [before, after] = [0, 2].map(|steps| text(&journal, steps));
+        let last_row = |text: &str| text.lines().nth(7).map(str::to_owned);
+        assert_eq!(
+            last_row(&before).as_deref(),
+            Some("| ^ . . . . .ab |"),
+            "\n{before}"
+        );
+        assert_eq!(
+            last_row(&after).as_deref(),
+            Some("| S  . .  .    |ab:r|"),
+            "\n{after}"
+        );
+    }
+}

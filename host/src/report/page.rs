@@ -275,3 +275,83 @@ fn figure(run: &BestRun) -> Markup {
 fn score(score: Option<Score>) -> String {
     score.map_or_else(|| NONE.to_owned(), |score| score.to_string())
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use wasmouse_core::game::Action;
+    use wasmouse_core::maze::{Maze, Turn, Walls};
+    use wasmouse_core::record::Transcript;
+
+    use super::super::sample::{HOSTILE, results};
+    use super::*;
+    use crate::contest::{ContestMatch, ContestMaze};
+
+    /// A match of two steps in an open maze.
+    fn best(results: &Results) -> BestMatch {
+        let mut transcript = Transcript::default();
+        for advance in [3, 1] {
+            transcript.push(Action::Move {
+                turn: Turn::Right,
+                advance,
+            });
+        }
+        let maze = Maze::contest(Walls::open(12)).expect("start and goal fit");
+        BestMatch {
+            played: ContestMatch {
+                player: 1,
+                record: results.matches[1].clone(),
+                transcript,
+            },
+            maze: ContestMaze {
+                name: HOSTILE.to_owned(),
+                digest: maze.digest(),
+                oracle: None,
+                maze: Arc::new(maze),
+            },
+        }
+    }
+
+    #[test]
+    fn a_page_shows_everything_and_runs_nothing() {
+        let mut results = results();
+        results.contest.rules.game.budget = 2;
+        let best = BestRun::new(&results.contest, &best(&results)).expect("two steps");
+        assert_eq!(best.robot, HOSTILE);
+        let html = Page::of(&results, &[best]).to_html();
+        for expected in [
+            "Incomplete: 796 of 800 matches were not played.",
+            "The standings are partial: ranked over 1 of 200 mazes that every robot has played.",
+            "Rejected <strong>rejected</strong>: it imports &lt;b&gt;\\u{1b}",
+            "Internal error: <strong>a</strong>",
+            "<svg xmlns",
+            "fault: panic (110 + 17 steps)",
+            "<td>19.999</td><td>-0.001</td>",
+            "<td>20.667</td><td>17.600</td>",
+            &results.summary.digest.to_string(),
+        ] {
+            assert!(html.contains(expected), "{expected} is missing:\n{html}");
+        }
+        let harmful = |c: char| (c.is_control() && c != '\n') || c == '\u{202e}';
+        assert!(!html.contains(harmful) && !html.contains("<b>") && !html.contains("<script"));
+    }
+
+    #[test]
+    fn a_picture_needs_a_transcript_of_the_match() {
+        let results = results();
+        BestRun::new(&results.contest, &best(&results)).expect_err("the budget is not used up");
+    }
+
+    #[test]
+    fn long_lists_of_matches_are_left_out() {
+        let mut results = results();
+        let sentence = "matches are not listed here, because there are more than 1000.";
+        let one = results.matches[0].clone();
+        results.matches = vec![one; LISTED_MAX];
+        assert!(!Page::of(&results, &[]).to_html().contains(sentence));
+        results.matches.push(results.matches[0].clone());
+        let html = Page::of(&results, &[]).to_html();
+        assert!(html.contains(&format!("The 1001 {sentence}")) && html.len() < 20_000);
+    }
+}

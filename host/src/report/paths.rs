@@ -46,3 +46,53 @@ fn visits(maze: &Maze, trace: &Trace) -> Vec<(Cell, u32)> {
     let counted = maze.walls().cells().zip(counts);
     counted.filter(|&(_, visits)| visits > 0).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use wasmouse_core::game::{Action, GameRules};
+    use wasmouse_core::maze::{Area, Turn, Walls};
+    use wasmouse_core::record::{Transcript, trace};
+
+    use super::super::picture::TextStyle;
+    use super::*;
+
+    /// The picture of a match with these advances straight on; `None` is a reset.
+    #[track_caller]
+    fn check(actions: &[Option<i8>], expected: &str) {
+        let mut transcript = Transcript::default();
+        for action in actions {
+            transcript.push(match *action {
+                Some(advance) => Action::Move {
+                    turn: Turn::Straight,
+                    advance,
+                },
+                None => Action::Reset,
+            });
+        }
+        let rules = GameRules {
+            budget: u32::try_from(actions.len()).expect("few"),
+            ..GameRules::default()
+        };
+        // A goal above the start, so that straight on leads there.
+        let goal = Area::new(Cell::new(0, 2), 1, 1).expect("one cell");
+        let maze = Maze::new(Walls::open(4), Cell::new(0, 0), goal).expect("a maze");
+        let (_, trace) = trace(&maze, &rules, &transcript).expect("a match");
+        let text = paths(&maze, &trace).to_text(TextStyle::ASCII);
+        let column: String = text
+            .lines()
+            .skip(1)
+            .step_by(2)
+            .map(|line| &line[1..4])
+            .collect();
+        assert_eq!(column, expected, "\n{text}");
+    }
+
+    #[test]
+    fn the_speed_run_is_a_line_over_the_exploration_run() {
+        check(&[Some(1), Some(0)], "    G  *  S ");
+        check(
+            &[Some(1), Some(1), Some(1), Some(-1), None, Some(2)],
+            "===#*#=+==S=",
+        );
+    }
+}

@@ -170,7 +170,7 @@ pub fn read_results(bytes: &[u8]) -> Result<Results, ReadError> {
             found: results.version.into(),
             wasmouse: Some(escape::for_terminal(&results.contest.wasmouse)),
         }),
-        Err(error) => Err(other_version(bytes).unwrap_or_else(|| text_error(&error))),
+        Err(error) => Err(other_version(bytes).unwrap_or_else(|| text_error(bytes, &error))),
     }
 }
 
@@ -184,14 +184,154 @@ fn other_version(bytes: &[u8]) -> Option<ReadError> {
     })
 }
 
-fn text_error(error: &serde_json::Error) -> ReadError {
+fn text_error(bytes: &[u8], error: &serde_json::Error) -> ReadError {
     let (line, column) = (error.line(), error.column());
     let text = error.to_string();
     // serde writes the place after the reason.
     let place = format!(" at line {line} column {column}");
+    let reason = if bytes.trim_ascii_start().starts_with(b"{") {
+        escape::for_terminal(text.strip_suffix(&place).unwrap_or(&text))
+    } else {
+        "expected a results document, which is a JSON object".to_owned()
+    };
     ReadError::Text {
         line,
         column,
-        reason: escape::for_terminal(text.strip_suffix(&place).unwrap_or(&text)),
+        reason,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use wasmouse_core::record::Transcript;
+
+    use super::super::sample::{HOSTILE, results};
+    use super::*;
+
+    fn written(results: &Results) -> String {
+        let bytes = write_results(results, Vec::new()).expect("memory takes everything");
+        String::from_utf8(bytes).expect("JSON is UTF-8")
+    }
+
+    #[test]
+    fn what_is_streamed_is_read_back() {
+        let mut results = results();
+        for matches in [results.matches.clone(), Vec::new()] {
+            results.matches = matches;
+            let text = written(&results);
+            let streamed =
+                ResultsWriter::new(Vec::new(), &results.contest).and_then(|mut writer| {
+                    for record in &results.matches {
+                        writer.played(&ContestMatch {
+                            player: 0,
+                            record: record.clone(),
+                            transcript: Transcript::default(),
+                        })?;
+                    }
+                    writer.finish(&results.summary)
+                });
+            assert_eq!(streamed.expect("memory takes everything"), text.as_bytes());
+            assert_eq!(read_results(text.as_bytes()), Ok(results.clone()));
+            let one_per_line = |line: &&str| line.trim_start().starts_with("{\"key\":");
+            let lines = text.lines().filter(one_per_line).count();
+            assert_eq!(lines, results.matches.len());
+        }
+    }
+
+    #[test]
+    fn the_layout_is_that_of_an_indented_document() {
+        let mut results = results();
+        results.matches.clear();
+        let text = written(&results);
+        let harmful = |c: char| c != '\n' && (c.is_control() || c == '\u{202e}');
+        assert!(!text.contains(harmful), "{text:?}");
+        assert!(text.contains('\u{1f9ff}'), "visible characters stay");
+        let pretty = json::document(&results);
+        assert_eq!(text, pretty);
+    }
+
+    #[test]
+    fn other_layouts_of_the_same_values_are_read() {
+        let expected = results();
+        let text = written(&expected);
+        let value: serde_json::Value = serde_json::from_str(&text).expect("it is JSON");
+        let serde_json::Value::Object(fields) = &value else {
+            panic!("a document is an object")
+        };
+        let reversed: Vec<String> = fields
+            .iter()
+            .rev()
+            .map(|(name, value)| format!("\"{name}\": {value}"))
+            .collect();
+        for other in [
+            text.replace('\n', "\r\n"),
+            text.replace('\n', "\n\t"),
+            format!("\u{feff}{text}"),
+            serde_json::to_string(&value).expect("it was JSON"),
+            serde_json::to_string_pretty(&value).expect("it was JSON"),
+            format!("{{{}}}", reversed.join(",\n")),
+        ] {
+            assert_eq!(read_results(other.as_bytes()).as_ref(), Ok(&expected));
+        }
+    }
+
+    #[track_caller]
+    fn check_error(text: &str, expected: &str) {
+        let error = read_results(text.as_bytes()).expect_err("no results document");
+        assert_eq!(error.to_string(), expected);
+        assert!(!error.hint().is_empty());
+    }
+
+    #[test]
+    fn errors_say_where_and_what_was_expected() {
+        let no_object = "expected a results document, which is a JSON object";
+        check_error("", &format!("line 1, column 0: {no_object}"));
+        check_error("[1]", &format!("line 1, column 3: {no_object}"));
+        check_error("\nname,score", &format!("line 2, column 2: {no_object}"));
+        check_error(
+            "{\"version\": 2",
+            "line 1, column 13: EOF while parsing an object",
+        );
+        check_error(
+            "{\"schema\": 1, \"wasmouse\": \"0.1.0\"}",
+            "expected version 2 of the results document, found version 1, \
+             written by wasmouse 0.1.0",
+        );
+        check_error(
+            "{\"version\": 7}",
+            "expected version 2 of the results document, found version 7",
+        );
+        check_error(
+            "{\"version\": 2,\n \"contest\": {\"wasmouse\": \"\\u001b\", \"engine\": 7}}",
+            "line 2, column 46: invalid type: integer `7`, expected a string",
+        );
+        check_error(
+            "{\"version\": 2, \"\\u001b[31m\": 0}",
+            "line 1, column 27: unknown field `\\u{1b}[31m`, \
+             expected one of `version`, `contest`, `matches`, `summary`",
+        );
+        let text = written(&results());
+        let twice = text.replacen("\"matches\":", "\"version\": 2, \"matches\":", 1);
+        let error = read_results(twice.as_bytes()).expect_err("a field is there twice");
+        assert!(
+            error.to_string().ends_with(": duplicate field `version`"),
+            "{error}"
+        );
+        let deep = "[".repeat(100_000);
+        read_results(deep.as_bytes()).expect_err("lists in lists");
+    }
+
+    #[test]
+    fn a_document_of_another_version_is_named_with_its_writer() {
+        let mut results = results();
+        results.contest.wasmouse = HOSTILE.to_owned();
+        let text = written(&results).replacen("\"version\": 2", "\"version\": 3", 1);
+        assert_eq!(
+            read_results(text.as_bytes()),
+            Err(ReadError::Version {
+                found: 3,
+                wasmouse: Some(escape::for_terminal(HOSTILE)),
+            })
+        );
     }
 }

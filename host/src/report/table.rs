@@ -45,7 +45,6 @@ use Column::{Number, Text};
 /// The standings, best first, under a line that says what they are about. Ends with a newline.
 pub fn standings(contest: &ContestInfo, standings: &Standings, layout: Layout) -> String {
     let mut table = table(
-        layout,
         &[
             Number("Rank"),
             Text("Robot"),
@@ -55,6 +54,7 @@ pub fn standings(contest: &ContestInfo, standings: &Standings, layout: Layout) -
             Number("Mean score"),
             Number("Mean regret"),
         ],
+        layout.lines,
     );
     for line in &standings.lines {
         table.add_row([
@@ -68,7 +68,7 @@ pub fn standings(contest: &ContestInfo, standings: &Standings, layout: Layout) -
         ]);
     }
     let scope = standings_text::scope(contest, standings);
-    format!("Standings ({scope})\n\n{table}\n")
+    format!("Standings ({scope})\n\n{}\n", text(table, layout.width))
 }
 
 /// One line for every match, in the order of the document. Ends with a newline.
@@ -96,7 +96,7 @@ pub fn matches(
     if has_seeds {
         columns.insert(2, Number("Seed"));
     }
-    let mut table = table(layout, &columns);
+    let mut table = table(&columns, layout.lines);
     for record in matches {
         let score = record.verdict.score();
         let oracle = names.maze(&record.key).and_then(|maze| maze.oracle);
@@ -119,23 +119,22 @@ pub fn matches(
         }
         table.add_row(row);
     }
-    format!("{table}\n")
+    text(table, layout.width) + "\n"
 }
 
-fn table(layout: Layout, columns: &[Column]) -> Table {
+fn table(columns: &[Column], lines: Lines) -> Table {
     let mut table = Table::new();
-    table.load_style(match layout.lines {
-        Lines::Unicode => RULED,
-        Lines::Ascii => ASCII_MARKDOWN,
-    });
-    match layout.width {
-        Some(width) => table
-            .set_content_arrangement(ContentArrangement::Dynamic)
-            .set_width(width),
-        None => table.set_content_arrangement(ContentArrangement::Disabled),
-    };
-    table.set_header(columns.iter().map(|&(Text(name) | Number(name))| name));
+    table
+        .load_style(match lines {
+            Lines::Unicode => RULED,
+            Lines::Ascii => ASCII_MARKDOWN,
+        })
+        .set_content_arrangement(ContentArrangement::Disabled)
+        .set_header(columns.iter().map(|&(Text(name) | Number(name))| name));
     for (column, kind) in table.column_iter_mut().zip(columns) {
+        if lines == Lines::Unicode {
+            column.set_padding((0, 1));
+        }
         match kind {
             Text(_) => column.set_cell_alignment(CellAlignment::Left),
             Number(_) => {
@@ -146,4 +145,130 @@ fn table(layout: Layout, columns: &[Column]) -> Table {
         }
     }
     table
+}
+
+/// The table as text, made to fit the width when it is too wide.
+fn text(mut table: Table, width: Option<u16>) -> String {
+    let wide = table.trim_fmt();
+    match width {
+        Some(width) if wide.lines().any(|line| line.chars().count() > width.into()) => {
+            for column in table.column_iter_mut() {
+                column.set_padding((0, 0));
+            }
+            table.set_content_arrangement(ContentArrangement::Dynamic);
+            table.set_width(width).trim_fmt()
+        }
+        _ => wide,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::sample::results;
+    use super::*;
+    use crate::contest::Results;
+
+    const ASCII: Layout = Layout {
+        lines: Lines::Ascii,
+        width: None,
+    };
+
+    /// The sample with a short name instead of the hostile one.
+    fn sample() -> Results {
+        let mut results = results();
+        results.contest.robots[1].name = "b".to_owned();
+        results.summary.standings.lines[1].robot = "b".to_owned();
+        results.summary.mazes[1].name = "gen:tree:16:1".to_owned();
+        for record in &mut results.matches {
+            record.key.seed = 0;
+            record.fuel.steps = 912_345;
+        }
+        results
+    }
+
+    #[track_caller]
+    fn check(text: &str, expected: &str) {
+        assert_eq!(text, expected.trim_start_matches('\n'), "\n{text}");
+    }
+
+    #[test]
+    fn partial_standings_say_what_they_are_about() {
+        let mut results = sample();
+        let table =
+            |results: &Results| standings(&results.contest, &results.summary.standings, ASCII);
+        check(
+            &table(&results),
+            "
+Standings (partial: ranked over 1 of 200 mazes that every robot has played)
+
+| Rank | Robot               | Matches | Finished | Faults | Mean score | Mean regret |
+|------|---------------------|---------|----------|--------|------------|-------------|
+|    1 | a                   |       1 |        1 |      0 |     19.999 |      -0.001 |
+|    2 | b                   |       1 |        0 |      0 |          - |           - |
+|    - | rejected (rejected) |       0 |        0 |      0 |          - |           - |
+",
+        );
+        results.summary.standings.partial = false;
+        assert!(table(&results).starts_with("Standings (ranked over 1 maze)\n"));
+    }
+
+    #[test]
+    fn every_match_has_a_line() {
+        let mut results = sample();
+        let table = |results: &Results, layout| {
+            let Results {
+                contest,
+                matches: records,
+                summary,
+                ..
+            } = results;
+            matches(contest, &summary.mazes, records, layout)
+        };
+        results.contest.seeds.count = 1;
+        check(&table(&results, ASCII), "
+| Robot | Maze          | Verdict                      |  Score | Oracle | Exploration | Speed | Bumps |   Fuel |
+|-------|---------------|------------------------------|--------|--------|-------------|-------|-------|--------|
+| a     | test_maze_01  | finished                     | 20.667 | 17.600 |         110 |    17 |     0 | 912346 |
+| b     | test_maze_01  | fault: panic                 |      - | 17.600 |         110 |    17 |     0 | 912346 |
+| a     | gen:tree:16:1 | budget used up, goal reached |      - |      - |         110 |    17 |     0 | 912346 |
+| b     | gen:tree:16:1 | budget used up               |      - |      - |         110 |    17 |     0 | 912346 |
+");
+        results.contest.seeds.count = 2;
+        results.matches[3].key.seed = 7;
+        let unicode = Layout {
+            lines: Lines::Unicode,
+            width: Some(80),
+        };
+        check(
+            &table(&results, unicode),
+            "
+Robot Maze         Seed Verdict      Score Oracle Exploration Speed Bumps   Fuel
+────────────────────────────────────────────────────────────────────────────────
+a     test_maze_01    0 finished    20.667 17.600         110    17     0 912346
+b     test_maze_01    0 fault:           - 17.600         110    17     0 912346
+                        panic
+a     gen:tree:16:    0 budget used      -      -         110    17     0 912346
+      1                 up, goal
+                        reached
+b     gen:tree:16:    7 budget used      -      -         110    17     0 912346
+      1                 up
+",
+        );
+    }
+
+    #[test]
+    fn untrusted_names_are_escaped() {
+        let results = results();
+        let text = standings(&results.contest, &results.summary.standings, ASCII)
+            + &matches(
+                &results.contest,
+                &results.summary.mazes,
+                &results.matches,
+                ASCII,
+            );
+        assert!(
+            !text.contains(|c: char| c.is_control() && c != '\n'),
+            "{text:?}"
+        );
+    }
 }

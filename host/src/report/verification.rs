@@ -324,3 +324,117 @@ pub fn to_json(files: &[FileReport]) -> String {
         files,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::sample::{HOSTILE, results};
+    use super::*;
+    use crate::contest::differences;
+
+    fn report(status: Status) -> FileReport {
+        FileReport {
+            file: "results.json".to_owned(),
+            matches: 4,
+            matches_planned: 4,
+            status,
+            differences: Differences::default(),
+            not_found: Vec::new(),
+            reason: None,
+        }
+    }
+
+    #[track_caller]
+    fn check(report: &FileReport, text: &str, status: &str) {
+        assert_eq!(report.to_string(), text);
+        let json: Value =
+            serde_json::from_str(&to_json(std::slice::from_ref(report))).expect("it is JSON");
+        assert_eq!(json["files"][0]["status"], status);
+        assert_eq!(json["verified"], report.is_verified());
+    }
+
+    #[test]
+    fn every_status_has_its_text() {
+        let mut verified = report(Status::Verified);
+        check(&verified, "results.json: verified 4 matches\n", "verified");
+        verified.matches_planned = 200;
+        let text = "results.json: verified 4 of 200 matches (the contest is incomplete)\n";
+        check(&verified, text, "verified");
+        let text = "results.json: verified 4 matches, but the formatting differs at line 7\n\
+                    hint: pass the unmodified output of `wasmouse run --json` to compare every byte\n";
+        check(
+            &report(Status::Reformatted { line: 7 }),
+            text,
+            "reformatted",
+        );
+        let status = Status::DifferentEngine {
+            recorded_engine: EngineId::new("wasmtime-1"),
+            found_engine: EngineId::new("wasmtime-2"),
+        };
+        let text = "results.json: not verified: recorded by engine `wasmtime-1`, this is engine \
+                    `wasmtime-2`\nhint: verify it with the version of wasmouse that recorded it\n";
+        check(&report(status), text, "different-engine");
+        let unreadable = FileReport::unreadable("a\u{1b}", "no such file");
+        check(
+            &unreadable,
+            "a\\u{1b}: not verified: no such file\n",
+            "incomplete",
+        );
+        let mut incomplete = report(Status::Incomplete);
+        let digest = Digest::of(b"bot");
+        incomplete.not_found = vec![NotFound {
+            kind: NeededKind::Robot,
+            name: "bot".to_owned(),
+            digest,
+        }];
+        let text = format!(
+            "results.json: not verified: required robots or mazes were not found\n  \
+             robot `bot` was not found (SHA-256 {digest})\n"
+        );
+        check(&incomplete, &text, "incomplete");
+    }
+
+    #[test]
+    fn differences_name_match_and_field() {
+        let results = results();
+        let recorded = &results.matches[1];
+        let mut found = recorded.clone();
+        found.fuel.steps = 7;
+        let name = MatchName::new(&results.names(), &found.key);
+        let mut report = report(Status::Changed);
+        let fields = differences(recorded, &found);
+        report.differences.add(Some(&name), fields.clone());
+        let lines = &results.summary.standings.lines;
+        report
+            .differences
+            .add(None, differences(&lines[0].rank, &lines[1].rank));
+        let robot = for_terminal(HOSTILE);
+        let text = format!(
+            "results.json: 2 differences\n  `{robot}` in `test_maze_01`, seed {}: fuel.steps: \
+             recorded {}, found 7\n  : recorded 1, found 2\n",
+            u64::MAX,
+            u64::MAX - 1
+        );
+        check(&report, &text, "changed");
+        report
+            .differences
+            .add(Some(&name), fields.into_iter().cycle().take(20_000));
+        assert_eq!(report.differences.count(), 20_002);
+        assert_eq!(report.differences.kept().len(), KEPT_MAX);
+        let text = report.to_string();
+        assert!(
+            text.ends_with("\n  and 19982 more (--json lists them)\n"),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn long_values_are_cut() {
+        assert_eq!(shown(&None), "nothing");
+        let text = shown(&Some("\u{202e}".repeat(200).into()));
+        assert!(
+            text.starts_with("\"\\u{202e}") && text.ends_with("..."),
+            "{text}"
+        );
+        assert_eq!(text.chars().count(), VALUE_CHARS_MAX + 3);
+    }
+}
