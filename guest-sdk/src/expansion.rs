@@ -3,7 +3,7 @@
 //! The search of simple maze robots: squares are opened one after the other, each
 //! gets the next number, and the way is built in reverse, from the target over ever
 //! smaller numbers. It knows no steps and promises no shortest way; for that there
-//! are [`Search`](crate::Search) and [`AStar`](crate::AStar). The robots of Lobato's
+//! are [`Search`](crate::Search) and [`WeightedSearch`](crate::WeightedSearch). The robots of Lobato's
 //! report (2016) are built on it.
 
 use std::cmp::Reverse;

@@ -136,7 +136,7 @@ impl Action {
 impl Briefing {
     /// The briefing of the ruleset `udacity` for a contest maze of this dimension:
     /// start (0, 0), goal in the centre, 1000 steps for both runs together, moves
-    /// of up to 3 cells, exploration divided by 30, seed 0, setting 0.
+    /// of up to 3 cells, exploration divided by 30, seed 0, variant 0.
     ///
     /// For tests; in a match the host hands out the briefing.
     pub const fn contest(dimension: u32) -> Self {
@@ -147,9 +147,10 @@ impl Briefing {
             budget: 1000,
             budget_scope: BudgetScope::BothRuns,
             longest_move: 3,
+            units_per_cell: 1,
             exploration_divisor: 30,
             seed: 0,
-            setting: 0,
+            variant: 0,
         }
     }
 }

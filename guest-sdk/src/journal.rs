@@ -12,7 +12,7 @@ pub use crate::bindings::wasmouse::robot::journal::{Belief, Color, Level};
 use crate::{Cell, Heading};
 
 #[cfg(not(target_arch = "wasm32"))]
-use crate::testing::record;
+use crate::record;
 
 /// Writes a line of text.
 #[inline]

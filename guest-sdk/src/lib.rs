@@ -10,7 +10,6 @@
 //! | keep pose, map and budget together | [`Tracker`] |
 //! | find the fewest steps | [`Search`] |
 //! | find what still has to be seen | [`Doubt`] |
-//! | find cheapest paths under costs of your own | [`AStar`] |
 //! | search as simple robots do, by counting squares | [`Expansion`] |
 //! | find the cheapest ways when walls have costs | [`WeightedSearch`], [`Grid`] |
 //! | know that the best path is found | [`Certificate`] |
@@ -21,7 +20,6 @@
 //! The smallest robot that does something is in the documentation of [`Robot`];
 //! `example-robots/` in the wasmouse repository has complete ones.
 
-mod astar;
 #[doc(hidden)]
 pub mod bindings;
 mod certificate;
@@ -34,6 +32,8 @@ mod map;
 mod passages;
 mod pose;
 mod random;
+#[cfg(not(target_arch = "wasm32"))]
+mod record;
 mod robot;
 mod search;
 #[cfg(not(target_arch = "wasm32"))]
@@ -41,7 +41,6 @@ pub mod testing;
 mod tracker;
 mod weighted;
 
-pub use astar::{AStar, Path};
 pub use bindings::wasmouse::robot::types::{
     Action, Area, Briefing, BudgetScope, Cell, Heading, Move, Sensors, Turn,
 };

@@ -126,13 +126,6 @@ impl Map {
         }
     }
 
-    /// Whether all four sides of `cell` are known.
-    pub fn is_known(&self, cell: Cell) -> bool {
-        Heading::ALL
-            .into_iter()
-            .all(|side| self.wall(cell, side) != Wall::Unknown)
-    }
-
     /// What a sensor in `cell` that looks in that direction would read, in open
     /// cells; `None` where a reading would teach something.
     ///
@@ -306,10 +299,5 @@ mod tests {
             map.set(Cell::new(0, 2), Heading::Left, wall);
             assert_eq!(map.wall(Cell::new(0, 2), Heading::Left), Wall::Closed);
         }
-        assert!(!map.is_known(cell));
-        for heading in Heading::ALL {
-            map.set(cell, heading, Wall::Open);
-        }
-        assert!(map.is_known(cell));
     }
 }

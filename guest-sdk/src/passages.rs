@@ -50,13 +50,6 @@ impl CellSet {
         self.rows[row(cell.y)] |= bit(cell.x);
     }
 
-    /// Takes a cell out; nothing happens when it is not there.
-    pub fn remove(&mut self, cell: Cell) {
-        if self.contains(cell) {
-            self.rows[row(cell.y)] &= !bit(cell.x);
-        }
-    }
-
     /// Whether the cell is in the set.
     pub const fn contains(&self, cell: Cell) -> bool {
         cell.x < DIMENSION_MAX
@@ -311,9 +304,7 @@ mod tests {
         let cells = [Cell::new(63, 0), Cell::new(0, 1), Cell::new(63, 63)];
         let mut set: CellSet = cells.into_iter().collect();
         assert!(set.iter().eq(cells));
-        set.remove(Cell::new(64, 0));
-        set.remove(cells[1]);
-        assert!(!set.contains(cells[1]) && set.contains(cells[0]));
+        assert!(!set.contains(Cell::new(64, 0)) && !set.contains(Cell::new(1, 1)));
         set.clear();
         assert!(set.is_empty());
     }

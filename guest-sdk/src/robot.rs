@@ -21,7 +21,7 @@ use crate::{Action, Briefing, Map, Sensors};
 ///
 /// impl Robot for Straight {
 ///     fn start(briefing: &Briefing) -> Self {
-///         assert!(briefing.setting == 0, "this robot has no settings");
+///         assert!(briefing.variant == 0, "this robot has no variants");
 ///         let longest_move = i8::try_from(briefing.longest_move).unwrap_or(i8::MAX);
 ///         Self { longest_move }
 ///     }
@@ -38,7 +38,7 @@ pub trait Robot: Sized + 'static {
     ///
     /// # Panics
     ///
-    /// A robot should panic on a setting it does not have, and may panic when it
+    /// A robot should panic on a variant it does not have, and may panic when it
     /// cannot take part; the match then ends with a fault in step 0.
     fn start(briefing: &Briefing) -> Self;
 
@@ -87,6 +87,12 @@ macro_rules! export_robot {
             }
 
     $crate::bindings::export!(Controller with_types_in $crate::bindings);
+
+            // Called once, while the component is instantiated.
+            #[unsafe(export_name = "_initialize")]
+            extern "C" fn initialize() {
+                $crate::bindings::runtime::report_panics();
+            }
         };
 
         #[cfg(not(target_arch = "wasm32"))]

@@ -207,6 +207,8 @@ impl Tracker {
         possible.is_open(self.pose.cell, heading)
     }
 
+    // Every step ends here; a call would add to its fuel.
+    #[inline]
     fn answer(&mut self, turn: Turn, travel: Heading, advance: i8) -> Action {
         let cells = u32::from(advance.unsigned_abs());
         self.pose = self

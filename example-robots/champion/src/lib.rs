@@ -55,7 +55,7 @@
 //! learned from. Nor did imagined matches, three times as many sampled mazes, costs found
 //! by evolution (0.02 better), or the options that a way leaves when it fails.
 //!
-//! Settings: 0 is fast, 1 is deep, which draws more mazes and asks the shortest way of
+//! Variants: 0 is fast, 1 is deep, which draws more mazes and asks the shortest way of
 //! each. In mazes of more than 20 x 20 cells both are the same. In 264 mazes of up to
 //! 20 x 20 cells, most of them from competitions, `deep` used up to 4.6 thousand million
 //! units of fuel a match and 0.05 a step, on average 2.2 a match.
@@ -158,13 +158,13 @@ impl Champion {
     ///
     /// # Panics
     ///
-    /// On a setting it does not have.
+    /// On a variant it does not have.
     pub fn with_parameters(briefing: &Briefing, parameters: [Parameters; KINDS]) -> Self {
-        let effort = match (briefing.setting, briefing.dimension) {
+        let effort = match (briefing.variant, briefing.dimension) {
             (1, ..=DEEP_MAX) => DEEP,
             (0 | 1, ..=FAST_MAX) => FAST,
             (0 | 1, _) => SPARING,
-            _ => panic!("champion has the settings 0 and 1"),
+            _ => panic!("champion has the variants 0 and 1"),
         };
         Self {
             tracker: Tracker::new(briefing),

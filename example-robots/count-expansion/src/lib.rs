@@ -32,7 +32,7 @@
 //! the order in which the report's benchmark (not its A*) opened its squares is not
 //! printed.
 //!
-//! Settings: only 0.
+//! Variants: only 0.
 
 use wasmouse_sdk::{
     Action, Briefing, Cell, CellSet, Expansion, Hop, Map, Robot, Sensors, Tracker, Turn, View,
@@ -53,8 +53,8 @@ export_robot!(CountExpansion);
 impl Robot for CountExpansion {
     fn start(briefing: &Briefing) -> Self {
         assert!(
-            briefing.setting == 0,
-            "the count expansion has the setting 0 only"
+            briefing.variant == 0,
+            "the count expansion has the variant 0 only"
         );
         let goal = briefing.goal;
         Self {
@@ -151,10 +151,10 @@ mod tests {
     }
 
     #[test]
-    #[should_panic(expected = "setting 0 only")]
-    fn an_unknown_setting() {
+    #[should_panic(expected = "variant 0 only")]
+    fn an_unknown_variant() {
         CountExpansion::start(&Briefing {
-            setting: 1,
+            variant: 1,
             ..Briefing::contest(12)
         });
     }

@@ -7,7 +7,7 @@
 //!
 //! - *Exploring*: walls not seen yet count as open. After every reading it looks
 //!   for the fewest steps to the goal under that assumption and takes the first.
-//! - *In the goal* it resets (setting 0), or goes on exploring (setting 1): it
+//! - *In the goal* it resets (variant 0), or goes on exploring (variant 1): it
 //!   drives to the first unknown wall on the path of fewest steps from start to
 //!   goal, again and again, until that whole path is known to be open, or the
 //!   budget has just enough steps left for the race.
@@ -20,7 +20,7 @@
 //! away from walls it has seen, and every detour has taught it one. When the goal
 //! turns out to be walled in, it turns on the spot until the budget is used up.
 //!
-//! Settings: 0 resets in the goal, 1 explores until the best path is certain.
+//! Variants: 0 resets in the goal, 1 explores until the best path is certain.
 
 use wasmouse_sdk::{
     Action, Briefing, CellSet, Doubt, Hop, Map, Pose, Robot, Run, Search, Sensors, Tracker, Turn,
@@ -44,10 +44,10 @@ export_robot!(Flood);
 
 impl Robot for Flood {
     fn start(briefing: &Briefing) -> Self {
-        let explores_on = match briefing.setting {
+        let explores_on = match briefing.variant {
             0 => false,
             1 => true,
-            _ => panic!("flood has the settings 0 and 1"),
+            _ => panic!("flood has the variants 0 and 1"),
         };
         Self {
             tracker: Tracker::new(briefing),
@@ -159,12 +159,12 @@ mod tests {
         contest_figures::check::<Flood>(&expected);
     }
 
-    /// The smallest budget that is enough for setting 0 is enough for setting 1.
+    /// The smallest budget that is enough for variant 0 is enough for variant 1.
     #[test]
     fn stops_exploring_in_time() {
         for (budget, expected) in [(52, "finished 31 + 21: 22.033"), (51, "goal seen 31 + 20")] {
             let options = PlayOptions {
-                setting: 1,
+                variant: 1,
                 budget,
                 ..PlayOptions::default()
             };
@@ -189,10 +189,10 @@ mod tests {
     }
 
     #[test]
-    #[should_panic(expected = "settings 0 and 1")]
-    fn an_unknown_setting() {
+    #[should_panic(expected = "variants 0 and 1")]
+    fn an_unknown_variant() {
         Flood::start(&Briefing {
-            setting: 2,
+            variant: 2,
             ..Briefing::contest(12)
         });
     }

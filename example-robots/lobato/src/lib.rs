@@ -59,7 +59,7 @@
 //! badly, that coming back is better, and the swing better still. Here coming back is
 //! better on average, but a little worse in maze 02.
 //!
-//! | setting | maze 01 | maze 02 | maze 03 |
+//! | variant | maze 01 | maze 02 | maze 03 |
 //! |---|---|---|---|
 //! | arrive | 32 + 31: 32.067 | 55 + 47: 48.833 | 75 + 48: 50.500 |
 //! | return | 78 + 24: 26.600 | 90 + 48: 51.000 | 127 + 36: 40.233 |
@@ -67,7 +67,7 @@
 //! | swing-2 | 131 + 17: 21.367 | 183 + 28: 34.100 | 214 + 29: 36.133 |
 //! | swing-3 | 149 + 17: 21.967 | 199 + 28: 34.633 | 248 + 29: 37.267 |
 //!
-//! Settings: 0 is `swing-3`, the final solution; 1 `arrive`, 2 `return`, 3 `swing-1`,
+//! Variants: 0 is `swing-3`, the final solution; 1 `arrive`, 2 `return`, 3 `swing-1`,
 //! 4 `swing-2`.
 
 use wasmouse_sdk::{
@@ -131,7 +131,7 @@ fn key_points(briefing: &Briefing, goal: Cell) -> Vec<Cell> {
     let upper_left = Cell::new(0, last);
     let lower_right = Cell::new(last, 0);
     let upper_right = Cell::new(last, last);
-    let mut points = match briefing.setting {
+    let mut points = match briefing.variant {
         0 => vec![
             goal,
             upper_left,
@@ -146,7 +146,7 @@ fn key_points(briefing: &Briefing, goal: Cell) -> Vec<Cell> {
         2 => vec![goal, start],
         3 => vec![goal, upper_left, goal, start, goal],
         4 => vec![goal, upper_left, lower_right, goal, start, goal],
-        _ => panic!("lobato has the settings 0 to 4"),
+        _ => panic!("lobato has the variants 0 to 4"),
     };
     points.reverse();
     points
@@ -265,7 +265,7 @@ mod tests {
     use wasmouse_sdk::testing::{self, MAZE_01, PlayOptions, Played};
     use wasmouse_sdk::{Area, Heading};
 
-    const SETTINGS: [u32; 5] = [0, 1, 2, 3, 4];
+    const VARIANTS: [u32; 5] = [0, 1, 2, 3, 4];
 
     fn play(maze: &str, options: &PlayOptions) -> Played {
         let played = testing::play::<Lobato>(maze, options);
@@ -325,10 +325,10 @@ mod tests {
     /// Whatever the budget is: once the goal is seen there is time to finish.
     #[test]
     fn stops_exploring_in_time() {
-        for setting in SETTINGS {
+        for variant in VARIANTS {
             for budget in (70..200).step_by(9) {
                 let options = PlayOptions {
-                    setting,
+                    variant,
                     budget,
                     ..PlayOptions::default()
                 };
@@ -344,7 +344,7 @@ mod tests {
     fn races_over_known_walls_without_a_step_to_spare() {
         for (budget, expected) in [(52, "finished 32 + 20: 21.067"), (51, "goal seen 32 + 19")] {
             let options = PlayOptions {
-                setting: 1,
+                variant: 1,
                 budget,
                 ..PlayOptions::default()
             };
@@ -394,13 +394,13 @@ mod tests {
     #[test]
     fn corners_and_a_goal_cell_that_are_walled_in() {
         let maze = "4\n1,5,5,4\n0,0,0,0\n0,0,0,0\n0,0,0,0";
-        for (setting, expected) in [
+        for (variant, expected) in [
             (0, "finished 7 + 1: 1.233"),
             (1, "finished 2 + 1: 1.067"),
             (2, "finished 3 + 1: 1.100"),
         ] {
             let options = PlayOptions {
-                setting,
+                variant,
                 goal: Some(Area::new(Cell::new(0, 1), 2, 2)),
                 ..PlayOptions::default()
             };
@@ -411,8 +411,8 @@ mod tests {
     #[test]
     fn a_goal_that_is_walled_in() {
         let maze = "3\n1,5,4\n0,0,0\n0,0,0";
-        for setting in SETTINGS {
-            let options = PlayOptions::of_setting(setting);
+        for variant in VARIANTS {
+            let options = PlayOptions::of_variant(variant);
             testing::check::<Lobato>(maze, &options, "goal not seen 1000 + 0");
         }
     }
@@ -420,7 +420,7 @@ mod tests {
     #[test]
     fn a_goal_behind_the_start() {
         let options = PlayOptions {
-            setting: 1,
+            variant: 1,
             start: Cell::new(0, 11),
             goal: Some(Area::new(Cell::new(0, 2), 1, 1)),
             ..PlayOptions::default()
@@ -429,10 +429,10 @@ mod tests {
     }
 
     #[test]
-    #[should_panic(expected = "settings 0 to 4")]
-    fn an_unknown_setting() {
+    #[should_panic(expected = "variants 0 to 4")]
+    fn an_unknown_variant() {
         Lobato::start(&Briefing {
-            setting: 5,
+            variant: 5,
             ..Briefing::contest(12)
         });
     }

@@ -10,9 +10,9 @@
 //! look for a path of 2 to 6 nodes driven there, back and there again, and then
 //! take an additional step.
 //!
-//! Settings: 1 to 4 and then 0 are the rows of his table, each with what came before.
+//! Variants: 1 to 4 and then 0 are the rows of his table, each with what came before.
 //!
-//! | | setting | maze 01 | maze 02 | maze 03 | his figures |
+//! | | variant | maze 01 | maze 02 | maze 03 | his figures |
 //! |---|---|---|---|---|---|
 //! | 1 | first working version | 24.167 | 32.000 | 37.900 | 26.700, 31.400, 34.567 |
 //! | 2 | take second step | 23.667 | 33.833 | 38.000 | 23.633, 34.033, 34.467 |
@@ -29,24 +29,24 @@
 //! - *Path cost* is steps, and nothing else: turns are free and a drive backwards is
 //!   as good as one forwards. Of equal paths, the one built from the target over the
 //!   first neighbour in the order right, up, left, down, the nearest cell first.
-//! - *Scaling* (settings 1 to 3): the report multiplies by the radius, its program
+//! - *Scaling* (variants 1 to 3): the report multiplies by the radius, its program
 //!   also by the smaller uncertainty found there, and rings that touch the perimeter
 //!   are not looked at. With the radius alone row 3 is 21.900 instead of 21.233.
 //! - *The goal* is no target before its entrance is known; then its cell behind the
 //!   entrance is. Afterwards the peaks are targets again.
 //! - *Uncertainties* are 2 to the power of the unknown walls, less the shape that is
 //!   closed all around; never more than the report's initial 15, 7, 2 and 3.
-//! - *The wrong path costs* of the first versions (settings 1 and 2): the report says
+//! - *The wrong path costs* of the first versions (variants 1 and 2): the report says
 //!   that unvisited nodes were taken in a wrong order; in its program that is the
 //!   order of a Python dictionary. Here the last in the order of rows is taken; by
-//!   columns setting 2 would be 23.933, 32.533, 32.367. Such paths are used everywhere
-//!   in these settings, so their race may not be optimal.
+//!   columns variant 2 would be 23.933, 32.533, 32.367. Such paths are used everywhere
+//!   in these variants, so their race may not be optimal.
 //! - *An additional step* is one: the third of the path.
 //! - *What is behind* cannot be sensed. Before it drives backwards through a wall
 //!   that it has not seen, or when the target is its own cell, the robot turns right.
 //!
 //! His robot looped for ever in 17 of 500 mazes. This one has a guard of its own, in
-//! all settings: when it has to plan for the third time in the same pose without
+//! all variants: when it has to plan for the third time in the same pose without
 //! having learnt anything, or has not found the goal when half of the budget is gone,
 //! it drives as the flood robot does (to the goal, then to the first wall in doubt on
 //! the best path that may exist) until it sees something new. Every take-over is
@@ -54,7 +54,7 @@
 //!
 //! His robot beats optimum + n*n/30 in 420 of 500 generated mazes, by 2.77 on average:
 //! in 86.96 % of the 483 that it finished. In 10,000 mazes of the kind `stretches`,
-//! made as his program makes them, setting 0 finishes all and beats it in 84.9 %, by
+//! made as his program makes them, variant 0 finishes all and beats it in 84.9 %, by
 //! 2.63; in the 9,851 in which the guard does not take over, in 85.4 %, by 2.67. The
 //! mazes of the kind `division`, made as his report describes them, have longer ways
 //! to the goal (16.1 steps at 16 x 16 instead of 10.7): 76.6 % of 500, by 2.07. What
@@ -91,12 +91,12 @@ struct Stage {
 }
 
 impl Stage {
-    fn new(setting: u32) -> Self {
+    fn new(variant: u32) -> Self {
         // In the order of the report's table.
-        let row = match setting {
+        let row = match variant {
             0 => 5,
-            1..=4 => setting,
-            _ => panic!("minnett has the settings 0 to 4"),
+            1..=4 => variant,
+            _ => panic!("minnett has the variants 0 to 4"),
         };
         Self {
             order: if row < 3 {
@@ -134,7 +134,7 @@ export_robot!(Minnett);
 
 impl Robot for Minnett {
     fn start(briefing: &Briefing) -> Self {
-        let stage = Stage::new(briefing.setting);
+        let stage = Stage::new(briefing.variant);
         Self {
             tracker: Tracker::new(briefing),
             knowledge: Knowledge::new(briefing),

@@ -32,7 +32,7 @@
 //! - *The first version*, before dead ends were marked, backs out of a dead end until
 //!   two readings are not 0, and goes a random way from there (section 0.13). There
 //!   was no cap then: "initially, I ran my robot until whole maze is discovered". The
-//!   setting `full` is this, with the same choice everywhere else; its chance comes
+//!   variant `full` is this, with the same choice everywhere else; its chance comes
 //!   from the seed of the briefing.
 //!
 //! Not in the report is how to live within the budget. Until the robot has seen the
@@ -45,7 +45,7 @@
 //! Steps of run 1 with the reset + steps of run 2, and the score; the report's score
 //! is the same where the last column does not name another:
 //!
-//! | setting | maze 01 | maze 02 | maze 03 | report |
+//! | variant | maze 01 | maze 02 | maze 03 | report |
 //! |---|---|---|---|---|
 //! | `cap-60` | 139 + 17: 21.633 | 220 + 28: 35.333 | 260 + 29: 37.667 | same |
 //! | `cap-70` | 144 + 17: 21.800 | 255 + 28: 36.500 | 297 + 29: 38.900 | same |
@@ -65,7 +65,7 @@
 //! capped exploration too; and the race of figure 10, "without dead end detection",
 //! is that of `cap-80`, to the cell and with the same 280 calls.
 //!
-//! Settings: 0 `cap-60`, 1 `cap-70`, 2 `cap-80`, 3 `cap-100`, 4 `full`.
+//! Variants: 0 `cap-60`, 1 `cap-70`, 2 `cap-80`, 3 `cap-100`, 4 `full`.
 
 mod value_table;
 mod walk;
@@ -97,13 +97,13 @@ impl Robot for Rai {
             random: Random::new(briefing.seed),
             retreating: false,
         };
-        let (cap, dead_ends) = match briefing.setting {
+        let (cap, dead_ends) = match briefing.variant {
             0 => (60, DeadEnds::Mark),
             1 => (70, DeadEnds::Mark),
             2 => (80, DeadEnds::Mark),
             3 => (100, DeadEnds::Mark),
             4 => (100, first_version),
-            _ => panic!("this robot has the settings 0 to 4"),
+            _ => panic!("this robot has the variants 0 to 4"),
         };
         let &Briefing {
             dimension,

@@ -15,7 +15,7 @@
 //!
 //! Chance comes from the seed of the briefing alone, by SplitMix64 ([`Random`]).
 //!
-//! Settings: only 0.
+//! Variants: only 0.
 
 use wasmouse_sdk::{Action, Area, Briefing, Pose, Random, Robot, Sensors, Turn, export_robot};
 
@@ -34,8 +34,8 @@ export_robot!(RandomWalk);
 impl Robot for RandomWalk {
     fn start(briefing: &Briefing) -> Self {
         assert!(
-            briefing.setting == 0,
-            "the random walk has the setting 0 only"
+            briefing.variant == 0,
+            "the random walk has the variant 0 only"
         );
         let start = Pose::at_start(briefing.start);
         Self {
@@ -140,10 +140,10 @@ mod tests {
     }
 
     #[test]
-    #[should_panic(expected = "setting 0 only")]
-    fn an_unknown_setting() {
+    #[should_panic(expected = "variant 0 only")]
+    fn an_unknown_variant() {
         RandomWalk::start(&Briefing {
-            setting: 1,
+            variant: 1,
             ..Briefing::contest(12)
         });
     }

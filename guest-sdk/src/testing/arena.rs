@@ -4,16 +4,16 @@ use std::fmt;
 
 use super::audit::MapAudit;
 use super::maze::Maze;
-use super::record::{Entry, Recorder};
+use crate::record::{Entry, Recorder};
 use crate::{Action, Area, Briefing, BudgetScope, Cell, Heading, Move, Pose, Robot, Sensors};
 
-/// How to play; the default is the ruleset `udacity` with seed 0 and setting 0.
+/// How to play; the default is the ruleset `udacity` with seed 0 and variant 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlayOptions {
     /// The seed of the briefing.
     pub seed: u64,
-    /// The setting of the briefing.
-    pub setting: u32,
+    /// The variant of the briefing.
+    pub variant: u32,
     /// Steps the robot may take, at least 1. Default: 1000.
     pub budget: u32,
     /// Whether both runs share the budget. Default: they do.
@@ -32,7 +32,7 @@ impl Default for PlayOptions {
     fn default() -> Self {
         Self {
             seed: 0,
-            setting: 0,
+            variant: 0,
             budget: 1000,
             budget_scope: BudgetScope::BothRuns,
             longest_move: 3,
@@ -44,16 +44,16 @@ impl Default for PlayOptions {
 }
 
 impl PlayOptions {
-    /// The default with a setting, for robots that have several.
+    /// The default with a variant, for robots that have several.
     ///
     /// ```
     /// use wasmouse_sdk::testing::PlayOptions;
-    /// let options = PlayOptions { budget: 50, ..PlayOptions::of_setting(2) };
-    /// assert_eq!((options.setting, options.seed), (2, 0));
+    /// let options = PlayOptions { budget: 50, ..PlayOptions::of_variant(2) };
+    /// assert_eq!((options.variant, options.seed), (2, 0));
     /// ```
-    pub fn of_setting(setting: u32) -> Self {
+    pub fn of_variant(variant: u32) -> Self {
         Self {
-            setting,
+            variant,
             ..Self::default()
         }
     }
@@ -63,7 +63,7 @@ impl PlayOptions {
 ///
 /// ```
 /// use wasmouse_sdk::testing::Score;
-/// assert_eq!(Score::new(110, 17, 30).to_string(), "20.667");
+/// assert_eq!(Score::new(17, 110, 30).to_string(), "20.667");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Score {
@@ -71,10 +71,10 @@ pub struct Score {
 }
 
 impl Score {
-    /// The score of these steps: those of the speed run plus those of the
-    /// exploration divided by `divisor` (at least 1), to the nearest thousandth; a
-    /// tie goes to the even one, as the tester's printing does.
-    pub const fn new(exploration_steps: u32, speed_steps: u32, divisor: u32) -> Self {
+    /// The steps of the speed run plus those of the exploration run divided by
+    /// `divisor` (at least 1), rounded to the nearest thousandth. A tie rounds to the
+    /// even one, as in the output of the original contest's tester.
+    pub const fn new(speed_steps: u32, exploration_steps: u32, divisor: u32) -> Self {
         let (shared, divisor) = (exploration_steps as u64 * 1000, divisor as u64);
         let (low, rest) = (shared / divisor, shared % divisor);
         let below = rest * 2 < divisor || (rest * 2 == divisor && low.is_multiple_of(2));
@@ -250,9 +250,10 @@ pub fn briefing(dimension: u32, options: &PlayOptions) -> Briefing {
         budget: options.budget,
         budget_scope: options.budget_scope,
         longest_move: options.longest_move,
+        units_per_cell: 1,
         exploration_divisor: options.exploration_divisor,
         seed: options.seed,
-        setting: options.setting,
+        variant: options.variant,
     }
 }
 
@@ -361,8 +362,8 @@ impl<'a> Arena<'a> {
         } else {
             played.finished = true;
             played.score = Some(Score::new(
-                played.exploration_steps,
                 played.speed_steps,
+                played.exploration_steps,
                 self.briefing.exploration_divisor,
             ));
         }
@@ -378,15 +379,15 @@ mod tests {
     #[test]
     fn scores_have_three_decimals() {
         let cases = [
-            ((110, 17, 30), "20.667"),
-            ((197, 22, 30), "28.567"),
-            ((18, 17, 30), "17.600"),
+            ((17, 110, 30), "20.667"),
+            ((22, 197, 30), "28.567"),
+            ((17, 18, 30), "17.600"),
             ((1, 1, 16), "1.062"),
-            ((3, 1, 16), "1.188"),
-            ((u32::MAX, 0, 1), "4294967295.000"),
+            ((1, 3, 16), "1.188"),
+            ((0, u32::MAX, 1), "4294967295.000"),
         ];
-        for ((exploration, speed, divisor), expected) in cases {
-            let score = Score::new(exploration, speed, divisor);
+        for ((speed, exploration, divisor), expected) in cases {
+            let score = Score::new(speed, exploration, divisor);
             assert_eq!(score.to_string(), expected);
         }
     }

@@ -71,7 +71,7 @@ mod tests {
     use crate::testing::{self, MAZE_01, PlayOptions};
     use crate::{Action, Briefing, Cell, Heading, Map, Robot, Sensors, Tracker};
 
-    /// Drives by what it sees; setting 1 mixes up left and right in its map.
+    /// Drives by what it sees; variant 1 mixes up left and right in its map.
     struct Careless {
         tracker: Tracker,
         mixes_up: bool,
@@ -81,7 +81,7 @@ mod tests {
         fn start(briefing: &Briefing) -> Self {
             Self {
                 tracker: Tracker::new(briefing),
-                mixes_up: briefing.setting == 1,
+                mixes_up: briefing.variant == 1,
             }
         }
 
@@ -107,8 +107,8 @@ mod tests {
 
     #[test]
     fn a_wrong_map_is_found_out() {
-        let audit = |setting| {
-            let options = PlayOptions::of_setting(setting);
+        let audit = |variant| {
+            let options = PlayOptions::of_variant(variant);
             testing::play::<Careless>(MAZE_01, &options).map
         };
         let honest = audit(0).expect("a map");

@@ -28,9 +28,8 @@
 mod arena;
 mod audit;
 mod maze;
-pub(crate) mod record;
 
+pub use crate::record::{Entry, Note};
 pub use arena::{PlayOptions, Played, Score, Stop, briefing, check, play};
 pub use audit::MapAudit;
 pub use maze::MAZE_01;
-pub use record::{Entry, Note};

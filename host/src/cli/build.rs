@@ -398,12 +398,12 @@ mod tests {
             let text = format!("(component {imports})");
             imports_of(&wat::parse_str(text).unwrap())
         };
-        let types = r#"(import "wasmouse:robot/types@0.1.0" (instance))"#;
-        let journal = r#"(import "wasmouse:robot/journal@0.1.0" (instance))"#;
+        let types = r#"(import "wasmouse:robot/types@0.2.0" (instance))"#;
+        let journal = r#"(import "wasmouse:robot/journal@0.2.0" (instance))"#;
         assert_eq!(component(types), "imports nothing");
         assert_eq!(
             component(&format!("{types}{journal}")),
-            "imports wasmouse:robot/journal@0.1.0"
+            "imports wasmouse:robot/journal@0.2.0"
         );
     }
 

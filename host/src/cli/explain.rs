@@ -59,7 +59,8 @@ pub fn tell(
 
 fn tell_frames(robot: &str, frames: &[Frame]) {
     let mut lines = format!("`{}` was here, the innermost call first:", visible(robot));
-    for (depth, frame) in frames.iter().enumerate() {
+    let shown = Frame::of_robot(frames);
+    for (depth, frame) in shown.iter().enumerate() {
         let function = visible(&frame.function);
         lines.push_str(&format!("\n  {depth:>2}: {function}"));
         if let Some(source) = &frame.source {
@@ -67,6 +68,11 @@ fn tell_frames(robot: &str, frames: &[Frame]) {
         } else if let Some(offset) = frame.offset {
             lines.push_str(&format!(" (byte {offset} of its module)"));
         }
+    }
+    match frames.len() - shown.len() {
+        0 => {}
+        1 => lines.push_str("\n  (1 frame of the Rust runtime hidden)"),
+        hidden => lines.push_str(&format!("\n  ({hidden} frames of the Rust runtime hidden)")),
     }
     tell!("{lines}");
 }

@@ -26,7 +26,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     for robot in bundled() {
         let written = writeln!(text, "{:<16} {}", robot.name, robot.description);
         written.expect("writing to a string cannot fail");
-        for setting in robot.settings {
+        for setting in robot.variants {
             let name = format!("{}:{}", robot.name, setting.value);
             let written = writeln!(
                 text,

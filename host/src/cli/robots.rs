@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::failure::Failure;
 use crate::contest::Entrant;
 use crate::report::visible;
-use crate::robot::bundled::{BundledRobot, Setting, bundled, find};
+use crate::robot::bundled::{BundledRobot, Variant, bundled, find};
 use crate::robot::{CacheUse, Digest, HostError, Player, Referee, Refusal, Trust};
 
 /// What a user may write for a robot, for the long help of commands.
@@ -84,8 +84,8 @@ impl Specification {
         let mut all = Vec::new();
         for robot in bundled() {
             let source = Source::Bundled(robot);
-            let values = robot.settings.iter().map(|setting| setting.value);
-            let only = robot.settings.is_empty().then_some(0);
+            let values = robot.variants.iter().map(|setting| setting.value);
+            let only = robot.variants.is_empty().then_some(0);
             all.extend(values.chain(only).map(|setting| Self {
                 source: source.clone(),
                 setting,
@@ -133,7 +133,7 @@ impl Specification {
     pub fn setting_name(&self) -> Option<String> {
         match &self.source {
             Source::Bundled(robot) => {
-                let mut settings = robot.settings.iter();
+                let mut settings = robot.variants.iter();
                 let setting = settings.find(|it| it.value == self.setting)?;
                 Some(setting.name.to_owned())
             }
@@ -169,18 +169,18 @@ fn split(text: &str) -> Option<(&str, &str)> {
 
 /// The number of a bundled robot's setting, given as a number or by name.
 fn bundled_setting(robot: &BundledRobot, text: &str) -> Result<u32, Failure> {
-    let is_meant = |setting: &&Setting| {
+    let is_meant = |setting: &&Variant| {
         setting.name == text || text.parse().is_ok_and(|value: u32| value == setting.value)
     };
-    if let Some(setting) = robot.settings.iter().find(is_meant) {
+    if let Some(setting) = robot.variants.iter().find(is_meant) {
         return Ok(setting.value);
     }
     let text = visible(text);
     let failure = Failure::usage(format!("robot `{}` has no setting `{text}`", robot.name));
-    Err(if robot.settings.is_empty() {
+    Err(if robot.variants.is_empty() {
         failure.hint("it has no settings: leave the colon out")
     } else {
-        let known = robot.settings.iter();
+        let known = robot.variants.iter();
         let known: Vec<String> = known
             .map(|setting| format!("{} ({})", setting.value, setting.name))
             .collect();

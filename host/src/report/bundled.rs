@@ -50,7 +50,7 @@ impl BundledReport {
             bytes: robot.component.len(),
             sha256: robot.sha256,
             settings: robot
-                .settings
+                .variants
                 .iter()
                 .map(|setting| WireSetting {
                     value: setting.value,

@@ -4,7 +4,7 @@
 //! {
 //!   "schema": 1, "robot": "flood", "bytes": 30123, "sha256": "...",
 //!   "kind": "component", "admitted": true,
-//!   "imports": [], "exports": ["wasmouse:robot/controller@0.1.0"],
+//!   "imports": [], "exports": ["wasmouse:robot/controller@0.2.0"],
 //!   "memories": 1, "memory_bytes": 1114112, "tables": 1, "table_elements": 12
 //! }
 //! ```

@@ -7,9 +7,8 @@ use std::borrow::Cow;
 
 use super::componentize::{BinaryKind, ComponentizeError, componentize};
 use super::precheck::precheck;
-use super::refusal::CONTROLLER;
 use super::shape::{self, Shape};
-use super::{Refusal, guest};
+use super::{Refusal, version};
 use crate::sim::Limits;
 
 /// A file read as a component.
@@ -60,11 +59,16 @@ fn in_core_module(refusal: Refusal) -> Refusal {
 ///
 /// The name that a robot may not have, or has to have.
 pub(super) fn check_names(shape: &Shape) -> Result<(), Refusal> {
+    let names = shape.imports.iter().chain(&shape.exports);
+    if let Some(version) = version::other(names.map(String::as_str)) {
+        return Err(Refusal::OtherVersion(version.to_owned()));
+    }
     let unknown = |name: &&String| !is_known_import(name);
     if let Some(name) = shape.imports.iter().find(unknown) {
         return Err(Refusal::UnknownImport(name.clone()));
     }
-    if !shape.exports.iter().any(|name| name == CONTROLLER) {
+    let is_controller = |name: &String| version::is_compatible(name, "controller");
+    if !shape.exports.iter().any(is_controller) {
         return Err(Refusal::NoController(shape.exports.clone()));
     }
     Ok(())
@@ -73,5 +77,7 @@ pub(super) fn check_names(shape: &Shape) -> Result<(), Refusal> {
 /// The interface `types` holds no functions, but its types are imported by every
 /// component that uses them.
 fn is_known_import(name: &str) -> bool {
-    name == guest::JOURNAL || name == "wasmouse:robot/types@0.1.0"
+    ["journal", "types"]
+        .iter()
+        .any(|interface| version::is_compatible(name, interface))
 }

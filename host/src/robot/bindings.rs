@@ -36,9 +36,10 @@ pub(super) fn briefing(
             BudgetScope::EachRun => types::BudgetScope::EachRun,
         },
         longest_move: rules.longest_move.into(),
+        units_per_cell: 1,
         exploration_divisor: rules.exploration_divisor,
         seed,
-        setting,
+        variant: setting,
     }
 }
 

@@ -13,18 +13,17 @@ pub struct BundledRobot {
     pub name: &'static str,
     /// One sentence.
     pub description: &'static str,
-    /// The values of `briefing.setting` that it takes; empty if there is nothing
-    /// to choose, and the setting is 0 then.
-    pub settings: &'static [Setting],
+    /// The values of `briefing.variant` that it takes. Empty if it has only one, 0.
+    pub variants: &'static [Variant],
     /// The component.
     pub component: &'static [u8],
     /// SHA-256 of the component, lowercase hexadecimal.
     pub sha256: &'static str,
 }
 
-/// One value of `briefing.setting`, with its meaning for one robot.
+/// One value of `briefing.variant`, with its meaning for one robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Setting {
+pub struct Variant {
     /// The number that the robot gets.
     pub value: u32,
     /// A short name for the number.
@@ -61,7 +60,7 @@ mod tests {
             let legal = |byte: u8| byte.is_ascii_lowercase() || byte == b'-';
             assert!(robot.name.bytes().all(legal), "{}", robot.name);
             assert!(robot.description.ends_with('.'), "{}", robot.name);
-            let values: Vec<u32> = robot.settings.iter().map(|it| it.value).collect();
+            let values: Vec<u32> = robot.variants.iter().map(|it| it.value).collect();
             assert!(values.is_sorted_by(|a, b| a < b), "{}", robot.name);
         }
     }

@@ -9,7 +9,7 @@ use wasmtime::component::types::{ComponentFunc, ComponentInstance, ComponentItem
 
 use super::Refusal;
 use super::bindings::types::{Action, Briefing, Sensors};
-use super::refusal::CONTROLLER;
+use super::version::CONTROLLER;
 
 /// Checks the types of `start` and `next-move`.
 ///
@@ -17,10 +17,10 @@ use super::refusal::CONTROLLER;
 ///
 /// [`Refusal::WrongType`] with the export that differs.
 pub(super) fn check_types(component: &Component) -> Result<(), Refusal> {
-    let engine = component.engine();
     let component_type = component.component_type();
-    let item = component_type.get_export(engine, CONTROLLER);
-    let Some(ComponentItem::ComponentInstance(controller)) = item.map(|export| export.ty) else {
+    // As the bindings look it up: another patch version is found as well.
+    let item = component.get_export(None, CONTROLLER);
+    let Some((ComponentItem::ComponentInstance(controller), _)) = item else {
         return Err(Refusal::WrongType(format!(
             "`{CONTROLLER}` is not an interface"
         )));

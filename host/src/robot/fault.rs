@@ -8,6 +8,7 @@ use std::fmt;
 
 use wasmtime::Trap;
 
+use super::guest::Panicked;
 use super::limiter::LimitExceeded;
 use super::{HostError, Phase};
 use crate::maze::Cell;
@@ -35,7 +36,10 @@ pub enum FaultKind {
     TableLimit,
     /// The robot recursed too deeply.
     StackOverflow,
-    /// The robot executed `unreachable`: a panic, an abort, a failed assertion.
+    /// The robot reported an error from which it cannot recover (`journal.panic`).
+    Panic,
+    /// The robot executed `unreachable`: an abort, a failed assertion, a panic in a
+    /// language that does not report it.
     Unreachable,
     /// The robot divided an integer by zero.
     DivisionByZero,
@@ -64,6 +68,7 @@ impl FaultKind {
             Self::MemoryLimit => "memory-limit",
             Self::TableLimit => "table-limit",
             Self::StackOverflow => "stack-overflow",
+            Self::Panic => "panic",
             Self::Unreachable => "unreachable",
             Self::DivisionByZero => "division-by-zero",
             Self::IntegerOverflow => "integer-overflow",
@@ -89,8 +94,8 @@ pub struct Fault {
     pub step: u32,
     /// Where the robot was.
     pub cell: Cell,
-    /// What exactly, for the contestant. Written by the host, but it may quote
-    /// numbers that the robot chose.
+    /// What exactly, for the contestant. It may quote the robot: the numbers that it
+    /// chose and the message with which it panicked. Escape it before printing.
     pub detail: String,
 }
 
@@ -125,6 +130,9 @@ pub(super) fn classify(
             LimitExceeded::Table { .. } => FaultKind::TableLimit,
         };
         return Ok((kind, limit.to_string()));
+    }
+    if let Some(panicked) = error.downcast_ref::<Panicked>() {
+        return Ok((FaultKind::Panic, panicked.to_string()));
     }
     if error.is::<wasmtime::PoolConcurrencyLimitError>() {
         return Err(HostError::call(error));

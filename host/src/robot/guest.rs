@@ -8,6 +8,7 @@ use super::HostError;
 use super::bindings::{journal as wit, types};
 use super::journal::{Belief, Color, Journal, Level, Note};
 use super::limiter::Limiter;
+use super::version::JOURNAL;
 use crate::maze::{Cell, Heading};
 
 /// The data of a store: one per match.
@@ -24,9 +25,13 @@ pub(super) struct Guest {
 /// cheaper than computing: about the time of that many operators.
 const CALL_FUEL: u64 = 200;
 
-/// The journal's name as an import; a robot built against another patch version
-/// of the same interface links all the same.
-pub(super) const JOURNAL: &str = "wasmouse:robot/journal@0.1.0";
+/// How much of the message of a panic is kept. Unit: bytes.
+const PANIC_BYTES_MAX: usize = 2000;
+
+/// The robot reported an error from which it cannot recover: its message, cut.
+#[derive(Debug, thiserror::Error)]
+#[error("panicked: {0}")]
+pub(super) struct Panicked(String);
 
 /// The linker with everything that a robot may import.
 pub(super) fn linker(engine: &Engine) -> Result<Linker<Guest>, HostError> {
@@ -36,6 +41,7 @@ pub(super) fn linker(engine: &Engine) -> Result<Linker<Guest>, HostError> {
 }
 
 fn add_journal(linker: &mut Linker<Guest>) -> wasmtime::Result<()> {
+    // A robot built for another patch version of the interface links as well.
     let mut journal = linker.instance(JOURNAL)?;
     journal.func_wrap(
         "log",
@@ -87,6 +93,16 @@ fn add_journal(linker: &mut Linker<Guest>) -> wasmtime::Result<()> {
                 belief: belief.into(),
             });
             Ok(())
+        },
+    )?;
+    journal.func_wrap(
+        "panic",
+        |mut store: StoreContextMut<'_, Guest>, (text,): (WasmStr,)| -> wasmtime::Result<()> {
+            let text = text.to_str(&store)?;
+            let bytes = text.len();
+            let kept = text[..text.floor_char_boundary(PANIC_BYTES_MAX)].to_owned();
+            charge(&mut store, bytes)?;
+            Err(Panicked(kept).into())
         },
     )?;
     Ok(())

@@ -32,6 +32,7 @@ mod play;
 mod referee;
 mod refusal;
 mod shape;
+mod version;
 
 pub use backtrace::Frame;
 pub use cache::Cache;
@@ -46,6 +47,7 @@ pub use play::{FuelUse, Game, Outcome, Phase, Recorder, Verdict};
 pub use referee::{Each, Isolation, Player, Record, Referee, Trust};
 pub use refusal::Refusal;
 pub use shape::Shape;
+pub use version::VERSION as INTERFACE_VERSION;
 pub use worker::{Executable, PATIENCE, Sandbox, Workers};
 
 /// Stack of the threads that run robots, in bytes: wasm gets its own limit of

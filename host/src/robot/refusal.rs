@@ -2,6 +2,7 @@
 
 use super::componentize::ComponentizeError;
 use super::precheck::Place;
+use super::version::{COMPATIBLE, CONTROLLER, REBUILD};
 
 /// Why a file was not admitted. Says nothing about how the robot would play.
 #[derive(Debug, thiserror::Error)]
@@ -24,6 +25,9 @@ pub enum Refusal {
     /// The file is malformed, or uses a proposal that is turned off.
     #[error("the component is not valid: {0}")]
     Invalid(String),
+    /// The robot was built for an incompatible version of the interface.
+    #[error("the robot was built for wasmouse:robot@{0}; this host runs {COMPATIBLE}")]
+    OtherVersion(String),
     /// The component asks for something that a robot does not get.
     #[error("the component imports `{0}`, which a robot does not get")]
     UnknownImport(String),
@@ -60,9 +64,6 @@ pub enum Refusal {
     },
 }
 
-/// The export that makes a component a robot.
-pub(super) const CONTROLLER: &str = "wasmouse:robot/controller@0.1.0";
-
 /// At most so many names are listed, so that a message stays a message.
 pub(super) const NAMES_SHOWN_MAX: usize = 8;
 
@@ -85,6 +86,9 @@ impl Refusal {
             Self::Empty => "empty",
             Self::TooLarge { .. } => "too-large",
             Self::NotWasm(_) => "not-wasm",
+            Self::CoreModule(ComponentizeError::OtherVersion { .. }) | Self::OtherVersion(_) => {
+                "other-version"
+            }
             Self::CoreModule(_) => "core-module",
             Self::Invalid(_) => "invalid",
             Self::UnknownImport(_) => "unknown-import",
@@ -106,6 +110,9 @@ impl Refusal {
             Self::TooLarge { .. } => {
                 "build in release mode, without debug information (`strip = \"debuginfo\"`)"
             }
+            Self::CoreModule(ComponentizeError::OtherVersion { .. }) | Self::OtherVersion(_) => {
+                REBUILD
+            }
             Self::CoreModule(_) => {
                 "build the module against `wit/robot.wit` (in Rust: the crate `wasmouse-sdk`)"
             }
@@ -118,7 +125,7 @@ impl Refusal {
                  (`--stub-wasi` in componentize-py, `--backend-qjs-stub-wasi` in jco)"
             }
             Self::UnknownImport(_) => {
-                "a robot may import `wasmouse:robot/journal@0.1.0` and nothing else"
+                "a robot may import the interface `journal` of `wit/robot.wit` and nothing else"
             }
             Self::NoController(_) => {
                 "export the interface `controller` of `wit/robot.wit`; in Rust, call \

@@ -52,7 +52,7 @@ impl Competitor {
             return "Not bundled.".to_owned();
         };
         let name = self.setting.as_deref();
-        let setting = robot.settings.iter().find(|it| Some(it.name) == name);
+        let setting = robot.variants.iter().find(|it| Some(it.name) == name);
         let parts = [Some(robot.description), setting.map(|it| it.description)];
         let parts: Vec<&str> = parts.into_iter().flatten().collect();
         parts.join(" ")

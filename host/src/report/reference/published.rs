@@ -280,8 +280,8 @@ mod tests {
     #[test]
     fn figures_are_for_settings_that_exist() {
         let has = |robot: &BundledRobot, setting: Option<&str>| match setting {
-            None => robot.settings.is_empty(),
-            Some(name) => robot.settings.iter().any(|setting| setting.name == name),
+            None => robot.variants.is_empty(),
+            Some(name) => robot.variants.iter().any(|setting| setting.name == name),
         };
         let figures = PUBLISHED.iter().map(|it| (it.robot, it.setting));
         let claims = CLAIMS.iter().map(|it| (it.robot, Some(it.setting)));

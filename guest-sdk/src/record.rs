@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use crate::journal::{Belief, Color, Level};
+use crate::bindings::wasmouse::robot::journal::{Belief, Color, Level};
 use crate::{Cell, Heading};
 
 /// One journal call, with the number of the step in which it was made.
@@ -38,10 +38,10 @@ thread_local! {
 
 /// Records this thread's journal calls until it is dropped or finished. Dropping
 /// matters when a robot panics: the next test on the thread starts clean.
-pub(super) struct Recorder(());
+pub(crate) struct Recorder(());
 
 impl Recorder {
-    pub(super) fn start() -> Self {
+    pub(crate) fn start() -> Self {
         RECORDING.set(Some(Recording {
             step: 0,
             entries: Vec::new(),
@@ -49,7 +49,7 @@ impl Recorder {
         Self(())
     }
 
-    pub(super) fn step(&self, step: u32) {
+    pub(crate) fn step(&self, step: u32) {
         RECORDING.with_borrow_mut(|recording| {
             if let Some(recording) = recording {
                 recording.step = step;
@@ -57,7 +57,7 @@ impl Recorder {
         });
     }
 
-    pub(super) fn finish(self) -> Vec<Entry> {
+    pub(crate) fn finish(self) -> Vec<Entry> {
         RECORDING.take().map_or_else(Vec::new, |it| it.entries)
     }
 }
