@@ -1,8 +1,8 @@
 //! Sets of cells ([`CellSet`]) and of open walls ([`Passages`]), one bit each.
 //!
-//! A row of the maze is one 64-bit word, so a search moves a whole row of cells
-//! with a few instructions. Both are plain values: clone a map's passages and
-//! close some of them to search around cells you do not want.
+//! A row of the maze is one 64-bit word, so a search processes a whole row of cells with a
+//! few instructions. Both are plain values: to search around some cells, clone a map's
+//! passages and close some of them.
 
 use crate::geometry::DIMENSION_MAX;
 use crate::{Area, Cell, Heading};
@@ -57,12 +57,12 @@ impl CellSet {
             && self.rows[row(cell.y)] & bit(cell.x) != 0
     }
 
-    /// Whether there are no cells in it.
+    /// Whether the set is empty.
     pub fn is_empty(&self) -> bool {
         self.rows.iter().all(|&row| row == 0)
     }
 
-    /// Takes all cells out.
+    /// Removes all cells.
     pub const fn clear(&mut self) {
         self.rows = [0; ROWS];
     }

@@ -1,4 +1,5 @@
-//! Where native journal calls go: a list per thread, while an arena plays.
+//! Records journal calls natively: a list per thread, while a [`testing`](crate::testing)
+//! match runs.
 
 use std::cell::RefCell;
 
@@ -10,11 +11,11 @@ use crate::{Cell, Heading};
 pub struct Entry {
     /// Steps of both runs, counted from 1; 0 during `start`.
     pub step: u32,
-    /// What was said.
+    /// What was reported.
     pub note: Note,
 }
 
-/// What one journal call said.
+/// What one journal call reported.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Note {
     /// A line of text.

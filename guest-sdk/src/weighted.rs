@@ -38,7 +38,7 @@ pub struct WeightedSearch {
     step_cost: u16,
     cost: Vec<u32>,
     hop: Vec<Hop>,
-    /// The cells to go on from, by their cost modulo the number of buckets.
+    /// The cells to expand next, by their cost modulo the number of buckets.
     buckets: Vec<Vec<u16>>,
     waiting: usize,
 }
@@ -71,7 +71,7 @@ impl WeightedSearch {
     }
 
     /// Computes the cost from every cell to the nearest of `targets`. `costs` has a
-    /// value for every wall of the grid, [`IMPASSABLE`] at least for the perimeter.
+    /// value forevery wall of the grid, [`IMPASSABLE`] at least for the perimeter.
     ///
     /// With `until`, ends when the cost of that cell is known; cells that are dearer
     /// may then have a cost that is too high, or none.
@@ -91,7 +91,7 @@ impl WeightedSearch {
             while let Some(cell) = self.buckets[bucket].pop() {
                 self.waiting -= 1;
                 let cell = usize::from(cell);
-                // A cheaper way to this cell has been found since.
+                // A cheaper path to this cell has been found since.
                 if self.cost[cell] != now {
                     continue;
                 }
@@ -104,22 +104,22 @@ impl WeightedSearch {
         }
     }
 
-    /// The cost from a cell to the nearest target; `None` when there is no way.
+    /// The cost from a cell to the nearest target; `None` when there is no path.
     #[inline]
     pub fn cost(&self, cell: usize) -> Option<u32> {
         let cost = self.cost[cell];
         (cost != NOT_REACHED).then_some(cost)
     }
 
-    /// The first hop of a cheapest way from a cell; `None` in a target and where
-    /// there is no way.
+    /// The first hop of a cheapest path from a cell; `None` in a target and where
+    /// there is no path.
     #[inline]
     pub fn hop(&self, cell: usize) -> Option<Hop> {
         let hop = self.hop[cell];
         (self.cost[cell] != NOT_REACHED && hop.cells > 0).then_some(hop)
     }
 
-    /// A cheapest way from a cell, hop after hop, each with the cell it starts from.
+    /// A cheapest path from a cell, hop by hop, each with the cell where it starts.
     pub fn way(&self, from: usize) -> impl Iterator<Item = (usize, Hop)> {
         let mut cell = from;
         std::iter::from_fn(move || {
@@ -154,7 +154,7 @@ impl WeightedSearch {
         cost as usize & (self.buckets.len() - 1)
     }
 
-    /// Offers a way to every cell that is one hop away.
+    /// Offers a path to every cell that is one hop away.
     fn spread(&mut self, costs: &[u16], cell: usize, cost: u32) {
         for heading in Heading::ALL {
             let mut there = cell;

@@ -9,9 +9,9 @@
 //! Files are of the Udacity text format, with the contest's start and goal. Before them,
 //! `-v` prints a line for each, and `-d` plays the variant `deep`.
 //!
-//! The parts of the regret, which add up to it, in steps of the race: what it took to
+//! The parts of the regret, which add up to it, in steps of the speed run: what it took to
 //! reach the goal for the first time, beyond the fewest steps and divided by 30; what
-//! was explored from then on, divided by 30; what the race took beyond the fewest steps.
+//! was explored from then on, divided by 30; what the speed run took beyond the fewest steps.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -49,7 +49,7 @@ fn main() {
     }
 }
 
-/// The regret of a match, in steps of the race.
+/// The regret of a match, in steps of the speed run.
 #[derive(Clone, Copy)]
 struct Parts {
     to_goal: f64,

@@ -45,7 +45,7 @@ fn contest_mazes_deep() {
     }
 }
 
-/// A budget that is just enough for the first way to the goal and back is enough.
+/// A budget that is just enough for the first path to the goal and back is enough.
 #[test]
 fn stops_exploring_in_time() {
     let played = |budget| {

@@ -71,7 +71,7 @@ fn the_traversal_grid_of_maze_01() {
     assert!(marked.iter().eq(dead_ends));
 }
 
-/// Figures 9 and 10: where the robot stands before each step of the race in maze 02.
+/// Figures 9 and 10: where the robot stands before each step of the speed run in maze 02.
 #[test]
 fn the_races_of_maze_02() {
     let figure_9 = "0,0 0,3 0,4 1,4 1,7 1,8 0,8 0,9 1,9 1,10 0,10 0,13 3,13 3,11 4,11 4,12 \

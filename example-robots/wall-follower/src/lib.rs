@@ -1,24 +1,22 @@
-//! The wall follower of the sketch-city report.
+//! The wall follower from the sketch-city report.
 //!
-//! What the report says (its state machine, at every intersection): go straight
-//! unless a wall is in front; then, with walls on both sides, turn around;
-//! otherwise turn to the side without a wall. It was driven along the perimeter
-//! of a small maze; the report gives no figures for a contest.
+//! From the report (its state machine, at every intersection): go straight unless there is a
+//! wall ahead; then, with walls on both sides, turn around; otherwise turn to the open side.
+//! The report drives it along the perimeter of a small maze and has no contest results.
 //!
-//! What it leaves open, and what was chosen here:
+//! What the report leaves open:
 //!
-//! - *A wall in front and none at either side*: the report's code keeps its old
-//!   state. Here the variant decides.
-//! - *Turning around*: a contest step cannot turn by 180 degrees. This robot turns
-//!   left on the spot; the rule then turns it left again and drives on, so a dead
-//!   end costs one extra step.
-//! - *How far to drive*: one cell a step, because the report looks at every cell.
-//! - *The goal*: the report has none. This robot resets in the goal and follows
-//!   the same rules again in run 2, so it repeats its way.
+//! - *A wall ahead and none at the sides*: the report's code keeps its previous state. Here
+//!   the variant decides.
+//! - *Turning around*: a step cannot turn by 180 degrees. This robot turns left on the spot,
+//!   and the rule then turns it left again and drives on, so a dead end costs one extra step.
+//! - *Distance*: one cell per step, because the report checks every cell.
+//! - *The goal*: the report has none. This robot resets in the goal and follows the same
+//!   rules again in the speed run, so it repeats its path.
 //!
-//! It remembers no walls, so it can circle for ever; then its budget runs out.
+//! The robot remembers no walls, so it can circle until its budget is used up.
 //!
-//! Variants: 0 prefers left where both sides are open, 1 prefers right.
+//! Variants: 0 prefers left where both sides are open; 1 prefers right.
 
 use wasmouse_sdk::{Action, Area, Briefing, Pose, Robot, Sensors, Turn, export_robot};
 
