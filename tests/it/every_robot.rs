@@ -1,4 +1,4 @@
-//! What holds for every bundled robot in every setting: natively it plays the match
+//! What holds for every bundled robot in every variant: natively it plays the match
 //! that its component plays, its map never contradicts the maze, and it finishes legal
 //! mazes unless it is known not to.
 
@@ -42,7 +42,7 @@ const NATIVE: &[(&str, Native)] = &[
     ),
 ];
 
-/// Who need not finish: robot, and the setting if it is only one of them.
+/// Who need not finish: robot, and the variant if it is only one of them.
 const MAY_FAIL: &[(&str, Option<&str>)] = &[
     ("dfs", Some("pure")),
     ("random", None),
@@ -76,19 +76,19 @@ fn natively_robots_play_the_match_of_their_component() {
     let host = Host::new(rules.limits, 1, None).expect("address space for one match");
     for (robot, (_, native)) in bundled().iter().zip(NATIVE) {
         let component = host.admit(robot.component).expect("an admitted robot");
-        for (setting, name) in settings(robot) {
+        for (variant, name) in variants(robot) {
             for (maze_name, text, maze) in &mazes {
                 let game = Game {
                     maze,
                     rules: &rules,
                     seed: 1,
-                    setting,
+                    setting: variant,
                 };
                 let mut recorder = Recorder::default();
                 let outcome = host.play(&component, &game, &mut recorder);
                 let outcome = outcome.expect("the host does not fail");
                 let options = PlayOptions {
-                    setting,
+                    variant,
                     ..sdk_arena::options(&rules, game.seed)
                 };
                 let played = native(text, &options);
@@ -109,10 +109,10 @@ fn natively_robots_play_the_match_of_their_component() {
 fn no_map_contradicts_the_maze() {
     let mazes = mazes();
     for (robot, (_, native)) in bundled().iter().zip(NATIVE) {
-        for (setting, name) in settings(robot) {
+        for (variant, name) in variants(robot) {
             for (maze_name, text, _) in &mazes {
                 let place = format!("{}:{name} in {maze_name}", robot.name);
-                let played = native(text, &PlayOptions::of_setting(setting));
+                let played = native(text, &PlayOptions::of_variant(variant));
                 if WITHOUT_MAP.contains(&robot.name) {
                     assert_eq!(played.map, None, "{place}: strike it off `WITHOUT_MAP`");
                     break;
@@ -158,13 +158,13 @@ fn check_same(maze: &Maze, played: &Played, outcome: &Outcome, trace: &Trace, pl
     assert_eq!(played.finished, finished, "{place}");
 }
 
-fn settings(robot: &BundledRobot) -> Vec<(u32, &'static str)> {
-    if robot.settings.is_empty() {
+fn variants(robot: &BundledRobot) -> Vec<(u32, &'static str)> {
+    if robot.variants.is_empty() {
         return vec![(0, "0")];
     }
-    let settings = robot.settings.iter();
-    settings
-        .map(|setting| (setting.value, setting.name))
+    let variants = robot.variants.iter();
+    variants
+        .map(|variant| (variant.value, variant.name))
         .collect()
 }
 
@@ -194,23 +194,23 @@ fn referee() -> Referee {
     Referee::new(Ruleset::default(), THREADS, None, Isolation::None)
 }
 
-/// The bundled robots in all settings in which they have to finish.
+/// The bundled robots in all variants in which they have to finish.
 fn entrants(referee: &Referee) -> Vec<Entrant> {
-    let may_fail = |robot: &str, setting: &str| {
+    let may_fail = |robot: &str, variant: &str| {
         let is_it = |&(name, only): &(&str, Option<&str>)| {
-            name == robot && only.is_none_or(|only| only == setting)
+            name == robot && only.is_none_or(|only| only == variant)
         };
         MAY_FAIL.iter().any(is_it)
     };
     let mut entrants = Vec::new();
     for robot in bundled() {
         let admitted = admit(referee, robot.component);
-        for (setting, name) in settings(robot) {
+        for (variant, name) in variants(robot) {
             if !may_fail(robot.name, name) {
                 entrants.push(Entrant {
                     name: format!("{}:{name}", robot.name),
                     digest: Digest::of(robot.component),
-                    setting,
+                    setting: variant,
                     admission: Ok(Arc::clone(&admitted)),
                 });
             }

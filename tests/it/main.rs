@@ -62,7 +62,9 @@ mod study;
 mod verdicts;
 /// Recorded results played again, and contests played twice.
 mod verify;
-/// The hash of the WIT beside its history.
+/// The WIT against its history, and the SDK's bindings against the WIT.
 mod wit;
+/// A robot written with `wit-bindgen` alone.
+mod without_sdk;
 /// Robots in worker processes.
 mod workers;

@@ -1,4 +1,4 @@
-//! Minnett's robot in generated mazes: it always finishes, whatever the setting, and
+//! Minnett's robot in generated mazes: it always finishes, whatever the variant, and
 //! a reset for a proven path means the optimum of the host's solver.
 
 use robot_minnett::Minnett;
@@ -24,10 +24,10 @@ fn for_each_maze(kind: &str, seeds: &str, mut check: impl FnMut(&str, &Maze)) {
     }
 }
 
-fn play(maze: &Maze, setting: u32) -> Played {
+fn play(maze: &Maze, variant: u32) -> Played {
     let text = format::print(maze, Format::Udacity).expect("a contest maze");
     let options = PlayOptions {
-        setting,
+        variant,
         ..PlayOptions::default()
     };
     testing::play::<Minnett>(&text, &options)
@@ -38,10 +38,10 @@ fn play(maze: &Maze, setting: u32) -> Played {
 fn finishes_every_kind_of_maze() {
     for kind in KINDS {
         for_each_maze(kind, "1..=3", |name, maze| {
-            for setting in 0..5 {
-                let played = play(maze, setting);
+            for variant in 0..5 {
+                let played = play(maze, variant);
                 let summary = played.summary();
-                assert!(played.finished, "{setting} in {name}: {summary}");
+                assert!(played.finished, "{variant} in {name}: {summary}");
                 assert_eq!((played.bumps, played.resets_before_goal), (0, 0));
             }
         });
@@ -58,12 +58,12 @@ fn a_proven_path_is_the_optimum() {
             let optimum = shortest_path(maze, Metric::STEPS)
                 .expect("solvable")
                 .steps();
-            for setting in [0, 3, 4] {
-                let played = play(maze, setting);
+            for variant in [0, 3, 4] {
+                let played = play(maze, variant);
                 let used = played.exploration_steps + played.speed_steps;
                 // Otherwise it may have reset because the budget was short.
                 if used < 990 {
-                    assert_eq!(played.speed_steps, optimum, "{setting} in {name}");
+                    assert_eq!(played.speed_steps, optimum, "{variant} in {name}");
                     proven += 1;
                 }
             }

@@ -5,11 +5,13 @@ use std::path::Path;
 
 use wasmouse::maze::{self, format};
 use wasmouse::robot::bundled::{BundledRobot, bundled};
-use wasmouse::robot::{Game, Host, Outcome, Recorder, Robot};
+use wasmouse::robot::{FaultKind, Game, Host, Outcome, Phase, Recorder, Robot, Verdict};
 use wasmouse::sim::Ruleset;
 use xtask::manifest::Manifest;
 use xtask::verify::BUILT_ROBOTS_VARIABLE;
 use xtask::{repository, robots};
+
+use crate::binary::{ran, wasmouse};
 
 #[test]
 fn no_prebuilt_robot_is_stale() {
@@ -31,17 +33,17 @@ fn the_host_embeds_what_the_manifest_lists() {
         assert_eq!(embedded.sha256, listed.sha256);
         assert_eq!(xtask::sources::sha256(embedded.component), listed.sha256);
         assert_eq!(embedded.component.len(), listed.size_bytes);
-        let settings: Vec<_> = embedded
-            .settings
+        let variants: Vec<_> = embedded
+            .variants
             .iter()
             .map(|it| (it.value, it.name, it.description))
             .collect();
         let expected: Vec<_> = listed
-            .settings
+            .variants
             .iter()
             .map(|it| (it.value, it.name.as_str(), it.description.as_str()))
             .collect();
-        assert_eq!(settings, expected, "{}", embedded.name);
+        assert_eq!(variants, expected, "{}", embedded.name);
     }
 }
 
@@ -60,19 +62,19 @@ fn robots_built_from_source_play_the_same_matches() {
         let source = fs::read(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
         let admit = |bytes: &[u8]| host.admit(bytes).expect("bundled robots are admitted");
         let (prebuilt_robot, source_robot) = (admit(prebuilt.component), admit(&source));
-        for setting in settings(prebuilt) {
+        for variant in variants(prebuilt) {
             for bundled_maze in maze::bundled() {
                 let parsed = format::parse(bundled_maze.text).expect("bundled mazes parse");
                 let game = Game {
                     maze: &parsed.maze,
                     rules: &rules,
                     seed: 1,
-                    setting,
+                    setting: variant,
                 };
                 let (expected, expected_record) = play(&host, &prebuilt_robot, &game);
                 let (found, found_record) = play(&host, &source_robot, &game);
                 let place = format!(
-                    "{}, setting {setting}, {}",
+                    "{}, variant {variant}, {}",
                     prebuilt.name, bundled_maze.name
                 );
                 assert_eq!(found.verdict, expected.verdict, "{place}");
@@ -84,11 +86,65 @@ fn robots_built_from_source_play_the_same_matches() {
     }
 }
 
-fn settings(robot: &BundledRobot) -> Vec<u32> {
-    if robot.settings.is_empty() {
+/// A panic of a Rust robot reaches the verdict with its message and place, through the hook
+/// that `export_robot!` installs while the component is instantiated.
+#[test]
+fn a_panic_says_what_and_where() {
+    let rules = Ruleset::default();
+    let host = Host::new(rules.limits, 1, None).expect("address space for one match");
+    let maze = format::parse(maze::bundled()[0].text)
+        .expect("bundled mazes parse")
+        .maze;
+    for robot in bundled() {
+        let admitted = host.admit(robot.component).expect("a bundled robot");
+        let game = Game {
+            maze: &maze,
+            rules: &rules,
+            seed: 0,
+            setting: 1000,
+        };
+        let (outcome, _) = play(&host, &admitted, &game);
+        let Verdict::Fault(fault) = outcome.verdict else {
+            panic!("{} has no variant 1000", robot.name);
+        };
+        let found = (fault.kind, fault.phase, fault.step);
+        assert_eq!(found, (FaultKind::Panic, Phase::Start, 0), "{}", robot.name);
+        let source = format!("(example-robots/{}/src/lib.rs:", robot.name);
+        let detail = &fault.detail;
+        assert!(
+            detail.starts_with("panicked: ") && detail.contains("variant"),
+            "{detail}"
+        );
+        assert!(
+            detail.contains(&source) && detail.ends_with(')'),
+            "{detail}"
+        );
+    }
+}
+
+/// The backtrace of a panic shows the robot's functions and not those that report it.
+#[test]
+fn a_panic_is_explained_without_the_runtime() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let flood = bundled().iter().find(|robot| robot.name == "flood");
+    let file = folder.path().join("flood.wasm");
+    fs::write(&file, flood.expect("a bundled robot").component).expect("a writable folder");
+    let ran = ran(wasmouse()
+        .args(["run", "flood.wasm:1000", "--no-cache"])
+        .current_dir(&folder));
+    for shown in ["0: <robot_flood::", "frames of the Rust runtime hidden)"] {
+        assert!(ran.stderr.contains(shown), "{shown}: {}", ran.stderr);
+    }
+    for hidden in ["panicking", "rust_", "function 0", "report_panics"] {
+        assert!(!ran.stderr.contains(hidden), "{hidden}: {}", ran.stderr);
+    }
+}
+
+fn variants(robot: &BundledRobot) -> Vec<u32> {
+    if robot.variants.is_empty() {
         return vec![0];
     }
-    robot.settings.iter().map(|setting| setting.value).collect()
+    robot.variants.iter().map(|variant| variant.value).collect()
 }
 
 fn play(host: &Host, robot: &Robot, game: &Game<'_>) -> (Outcome, Recorder) {

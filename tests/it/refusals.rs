@@ -5,10 +5,15 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use wasmouse::robot::bundled::find;
 use wasmouse::robot::componentize::componentize;
-use wasmouse::robot::{Cache, Host, Refusal};
+use wasmouse::robot::{Cache, Host, INTERFACE_VERSION, Recorder, Refusal};
 use wasmouse::sim::{AdmissionLimits, Limits};
 
-use crate::hostile::{IMPORT_LOG, Module, START_PARAMETERS, assert_unharmed, host, wasm};
+use wasmouse_tests::composite::Composite;
+use wasmouse_tests::module::versioned;
+
+use crate::hostile::{
+    DRIVE_ON, IMPORT_LOG, Module, START_PARAMETERS, assert_unharmed, host, play, wasm,
+};
 
 /// Limits that small files can pass.
 const SMALL: Limits = Limits {
@@ -38,7 +43,7 @@ fn check(file: &[u8], expected: &str) {
     let told = format!("{}: {refusal}", refusal.name());
     // Where it was found depends on the encoder.
     let told = told.split(" (byte").next().unwrap_or(&told);
-    assert_eq!(told, expected);
+    assert_eq!(told, versioned(expected));
     assert!(!refusal.hint().is_empty());
     // Looking at a file says the same as trying it.
     let inspected = host.inspect(file).refusal.expect("refused as before");
@@ -102,17 +107,17 @@ fn large_files_are_refused_unread() {
 #[test]
 fn core_modules_without_the_exports_of_a_robot() {
     let start =
-        format!(r#"(func (export "wasmouse:robot/controller@0.1.0#start") {START_PARAMETERS})"#);
+        format!(r#"(func (export "wasmouse:robot/controller@VERSION#start") {START_PARAMETERS})"#);
     for (module, reason) in [
         (
             "(module)".to_owned(),
             "core module without component types that exports neither \
-             `wasmouse:robot/controller@0.1.0#start` nor \
-             `wasmouse:robot/controller@0.1.0#next-move`; it exports nothing",
+             `wasmouse:robot/controller@VERSION#start` nor \
+             `wasmouse:robot/controller@VERSION#next-move`; it exports nothing",
         ),
         (
             format!("(module {start})"),
-            "core module without the export `wasmouse:robot/controller@0.1.0#next-move`",
+            "core module without the export `wasmouse:robot/controller@VERSION#next-move`",
         ),
         (
             Module {
@@ -148,8 +153,8 @@ fn core_modules_without_the_exports_of_a_robot() {
 fn core_modules_with_other_signatures_do_not_fit() {
     let module = r#"(module
         (memory (export "memory") 1)
-        (func (export "wasmouse:robot/controller@0.1.0#start"))
-        (func (export "wasmouse:robot/controller@0.1.0#next-move")
+        (func (export "wasmouse:robot/controller@VERSION#start"))
+        (func (export "wasmouse:robot/controller@VERSION#next-move")
             (param i32 i32 i32) (result i32) i32.const 0))"#;
     let refusal = host(SMALL)
         .admit(&wasm(module))
@@ -158,7 +163,10 @@ fn core_modules_with_other_signatures_do_not_fit() {
     let reason = refusal.to_string();
     assert_eq!(refusal.name(), "core-module");
     assert!(reason.contains("does not fit the world"), "{reason}");
-    assert!(reason.contains("controller@0.1.0#start"), "{reason}");
+    assert!(
+        reason.contains("/controller@") && reason.contains("#start"),
+        "{reason}"
+    );
 }
 
 #[test]
@@ -175,8 +183,8 @@ fn imports_that_no_robot_gets() {
         ),
         (r#"(component (import "now" (func (result u64))))"#, "now"),
         (
-            r#"(component (import "wasmouse:robot/journal@0.2.0" (instance)))"#,
-            "wasmouse:robot/journal@0.2.0",
+            r#"(component (import "wasmouse:robot/clock@VERSION" (instance)))"#,
+            "wasmouse:robot/clock@VERSION",
         ),
         (r#"(component (import "m" (core module)))"#, "m"),
     ] {
@@ -193,50 +201,140 @@ fn the_controller_has_to_be_exported_under_its_name() {
         ("(component)", "nothing"),
         (
             r#"(component (instance $empty)
-                (export "wasmouse:robot/controller@0.2.0" (instance $empty)))"#,
-            "`wasmouse:robot/controller@0.2.0`",
-        ),
-        (
-            r#"(component (instance $empty)
-                (export "wasmouse:robot/controler@0.1.0" (instance $empty))
+                (export "wasmouse:robot/controler@VERSION" (instance $empty))
                 (export "other" (instance $empty)))"#,
-            "`wasmouse:robot/controler@0.1.0`, `other`",
+            "`wasmouse:robot/controler@VERSION`, `other`",
         ),
     ] {
         check(
             &wasm(component),
             &format!(
                 "no-controller: the component does not export \
-                 `wasmouse:robot/controller@0.1.0`; it exports {exports}"
+                 `wasmouse:robot/controller@VERSION`; it exports {exports}"
             ),
         );
     }
+}
+
+/// The text of a module or component with another version in place of this host's.
+fn with_version(text: &str, version: &str) -> Vec<u8> {
+    wasm(&text.replace(&format!("@{INTERFACE_VERSION}"), &format!("@{version}")))
+}
+
+#[test]
+fn robots_for_another_version_are_told_which() {
+    let module = Module {
+        imports: IMPORT_LOG,
+        ..Module::default()
+    };
+    let composite = Composite::default();
+    for version in ["0.1.0", "0.1.99", "0.3.0", "1.0.0", "0.2.0-rc.1"] {
+        let expected = format!(
+            "other-version: the robot was built for wasmouse:robot@{version}; \
+             this host runs 0.2.x"
+        );
+        check(&with_version(&module.wat(), version), &expected);
+        check(&with_version(&composite.wat(), version), &expected);
+    }
+    // One import of another version is enough.
+    check(
+        &wasm(
+            r#"(component
+                (import "wasmouse:robot/journal@0.1.0" (instance (export "log" (func))))
+                (instance $empty)
+                (export "wasmouse:robot/controller@VERSION" (instance $empty)))"#,
+        ),
+        "other-version: the robot was built for wasmouse:robot@0.1.0; this host runs 0.2.x",
+    );
+    let old_import = IMPORT_LOG.replace("@VERSION", "@0.1.0");
+    let mixed = Module {
+        imports: &old_import,
+        ..Module::default()
+    };
+    check(
+        &mixed.core(),
+        "other-version: the robot was built for wasmouse:robot@0.1.0; this host runs 0.2.x",
+    );
+    let refusal = host(SMALL).admit(&mixed.core()).err().expect("refused");
+    assert!(refusal.hint().contains("rebuild"), "{}", refusal.hint());
+}
+
+#[test]
+fn robots_for_another_patch_version_play() {
+    let module = Module {
+        imports: IMPORT_LOG,
+        next: &format!("(call $log (i32.const 1) (i32.const 0) (i32.const 2)) {DRIVE_ON}"),
+        ..Module::default()
+    };
+    let composite = Composite {
+        robot: Module {
+            memory: Composite::MEMORY,
+            ..module
+        },
+        ..Composite::default()
+    };
+    for text in [module.wat(), composite.wat()] {
+        for version in [INTERFACE_VERSION, "0.2.1", "0.2.17"] {
+            let robot = with_version(&text, version);
+            let host = host(SMALL);
+            let mut recorder = Recorder::default();
+            let outcome = play(&host, &robot, &mut recorder);
+            assert_eq!(
+                outcome.verdict.title(),
+                "budget used up",
+                "{version}\n{text}"
+            );
+            assert!(recorder.journal.entries().count() > 0, "{version}");
+        }
+    }
+}
+
+#[test]
+fn a_patch_version_does_not_bring_functions_that_the_host_lacks() {
+    let win = r#"(import "wasmouse:robot/journal@0.2.9" "win" (func))"#;
+    let text = Module {
+        imports: win,
+        ..Module::default()
+    }
+    .wat();
+    let refusal = host(SMALL)
+        .admit(&with_version(&text, "0.2.9"))
+        .err()
+        .expect("there is no such function");
+    assert!(refusal.to_string().contains("`win`"), "{refusal}");
+    // Exports and imports of two patch versions are a mistake of the build.
+    let refusal = host(SMALL).admit(&wasm(&text)).err().expect("refused");
+    let reason = refusal.to_string();
+    assert!(
+        reason.contains("it imports `wasmouse:robot/journal@0.2.9`"),
+        "{reason}"
+    );
 }
 
 #[test]
 fn the_right_names_with_other_types() {
     for component in [
         r#"(component (instance $empty)
-            (export "wasmouse:robot/controller@0.1.0" (instance $empty)))"#,
+            (export "wasmouse:robot/controller@VERSION" (instance $empty)))"#,
         r#"(component
             (core module $m (func (export "f")))
             (core instance $i (instantiate $m))
             (func $f (canon lift (core func $i "f")))
             (instance $controller (export "start" (func $f)) (export "next-move" (func $f)))
-            (export "wasmouse:robot/controller@0.1.0" (instance $controller)))"#,
+            (export "wasmouse:robot/controller@VERSION" (instance $controller)))"#,
         r#"(component
             (core module $m (func (export "f")))
             (core instance $i (instantiate $m))
             (func $f (canon lift (core func $i "f")))
-            (export "wasmouse:robot/controller@0.1.0" (func $f)))"#,
+            (export "wasmouse:robot/controller@VERSION" (func $f)))"#,
         r#"(component
-            (import "wasmouse:robot/journal@0.1.0" (instance (export "log" (func))))
+            (import "wasmouse:robot/journal@VERSION" (instance (export "log" (func))))
             (instance $empty)
-            (export "wasmouse:robot/controller@0.1.0" (instance $empty)))"#,
+            (export "wasmouse:robot/controller@VERSION" (instance $empty)))"#,
         r#"(component
-            (import "wasmouse:robot/journal@0.1.0" (instance (export "shout" (func))))
+            (import "wasmouse:robot/journal@VERSION" (instance (export "shout" (func))))
             (instance $empty)
-            (export "wasmouse:robot/controller@0.1.0" (instance $empty)))"#,
+            (export "wasmouse:robot/controller@VERSION" (instance $empty)))"#,
     ] {
         let host = host(SMALL);
         let refusal = host.admit(&wasm(component)).err().expect("refused");
@@ -283,7 +381,7 @@ fn needs_beyond_the_limits_are_told() {
     let instances = "(core instance (instantiate $m))".repeat(9);
     let with_controller = format!(
         r#"(component (core module $m) {instances} (instance $empty)
-            (export "wasmouse:robot/controller@0.1.0" (instance $empty)))"#
+            (export "wasmouse:robot/controller@VERSION" (instance $empty)))"#
     );
     check(
         &wasm(&with_controller),

@@ -66,6 +66,94 @@ fn a_harmless_robot_uses_up_its_budget() {
     check(Module::default(), "budget used up");
 }
 
+const IMPORT_PANIC: &str = r#"(import "wasmouse:robot/journal@VERSION" "panic"
+    (func $panic (param i32 i32)))"#;
+
+#[test]
+fn a_panic_ends_the_match_with_its_message() {
+    let panicking = Module {
+        imports: IMPORT_PANIC,
+        rest: r#"(data (i32.const 100) "the map is \"wrong\"\0a")"#,
+        ..Module::default()
+    };
+    const PANIC: &str = "(call $panic (i32.const 100) (i32.const 19))";
+    check(
+        Module {
+            // It does not return, so the robot does not get to its `unreachable`.
+            next: &format!("{PANIC} unreachable"),
+            ..panicking
+        },
+        "panic (next-move): panicked: the map is \"wrong\"\n in step 1 (run 1, at (0, 0))",
+    );
+    check(
+        Module {
+            start: PANIC,
+            ..panicking
+        },
+        "panic (start): panicked: the map is \"wrong\"\n in `start`",
+    );
+    check(
+        Module {
+            next: "(call $panic (i32.const 0) (i32.const 0)) unreachable",
+            ..panicking
+        },
+        "panic (next-move): panicked:  in step 1 (run 1, at (0, 0))",
+    );
+    check(
+        Module {
+            next: "(i32.store8 (i32.const 100) (i32.const 255))
+                (call $panic (i32.const 100) (i32.const 1)) unreachable",
+            ..panicking
+        },
+        "interface (next-move): broke the interface: invalid utf-8 sequence of 1 bytes from \
+         index 0 in step 1 (run 1, at (0, 0))",
+    );
+}
+
+#[test]
+fn a_long_panic_is_cut_between_characters_and_costs_fuel() {
+    // One byte, then characters of two bytes: byte 2,000 is in the middle of one.
+    let fill = "(i32.store8 (i32.const 100) (i32.const 0x61))
+        (local.set 0 (i32.const 101))
+        (loop $more
+            (i32.store16 (local.get 0) (i32.const 0xa9c3))
+            (br_if $more (i32.lt_u
+                (local.tee 0 (i32.add (local.get 0) (i32.const 2))) (i32.const 3100))))";
+    let panicking = |bytes: u32| {
+        format!("{fill} (call $panic (i32.const 100) (i32.const {bytes})) unreachable")
+    };
+    let played = |next: &str, limits: Limits| {
+        let robot = Module {
+            imports: IMPORT_PANIC,
+            next,
+            ..Module::default()
+        };
+        let mut recorder = Recorder::default();
+        let outcome = play(&host(limits), &robot.component(), &mut recorder);
+        assert_eq!(recorder.journal.counts(), (0, 0));
+        match outcome.verdict {
+            Verdict::Fault(fault) => (fault.kind.name(), fault.detail, outcome.fuel.steps),
+            other => panic!("{other:?}"),
+        }
+    };
+    // The message does not have to fit the journal.
+    let no_journal = Limits {
+        journal_bytes_max: 0,
+        ..SMALL
+    };
+    let (kind, detail, short_fuel) = played(&panicking(2001), no_journal);
+    assert_eq!((kind, detail.len()), ("panic", "panicked: ".len() + 1999));
+    assert!(detail.starts_with("panicked: aé") && detail.ends_with('é'));
+    let (_, long_detail, long_fuel) = played(&panicking(2901), no_journal);
+    assert_eq!(long_detail, detail);
+    assert_eq!(long_fuel - short_fuel, 900);
+    let too_little = Limits {
+        step_fuel_max: long_fuel - 1,
+        ..SMALL
+    };
+    assert_eq!(played(&panicking(2901), too_little).0, "out-of-step-fuel");
+}
+
 #[test]
 fn endless_loops_use_up_fuel() {
     const FOREVER: &str = "(loop $forever br $forever)";
@@ -89,7 +177,7 @@ fn endless_loops_use_up_fuel() {
     // After the answer, where a robot cleans up.
     check_step_with(
         &format!(
-            r#"(func (export "cabi_post_wasmouse:robot/controller@0.1.0#next-move")
+            r#"(func (export "cabi_post_wasmouse:robot/controller@VERSION#next-move")
                 (param i32) {FOREVER})"#
         ),
         DRIVE_ON,

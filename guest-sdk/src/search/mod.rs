@@ -1,9 +1,8 @@
-//! Fewest steps from every cell to a set of cells: [`Search`].
+//! The fewest steps from every cell to a set of cells: [`Search`].
 //!
-//! Breadth first over whole steps: one step drives up to the longest move in a
-//! straight line, in any of the four directions (backwards included, so the
-//! heading never matters). Layers grow as bits, a row at a time; a search
-//! allocates nothing.
+//! A breadth-first search over steps: one step drives up to the longest move in a straight
+//! line, in any of the four directions (including backwards, so the heading does not
+//! matter). Cells are bits, so it processes a row at a time; a search allocates nothing.
 
 mod packed;
 
@@ -13,10 +12,10 @@ use crate::geometry::DIMENSION_MAX;
 use crate::passages::{Bits, ROWS, bit, row};
 use crate::{Cell, CellSet, Heading, Passages, Pose, Turn};
 
-/// A drive in a straight line, in one step.
+/// A move in a straight line, in one step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Hop {
-    /// The direction of travel, in the maze.
+    /// The direction of travel in the maze.
     pub heading: Heading,
     /// How far, in cells, at least 1.
     pub cells: u32,
@@ -24,8 +23,8 @@ pub struct Hop {
 
 /// Distances in steps to a set of cells, with reusable buffers.
 ///
-/// Because every step can also be driven back, distances to a cell are distances
-/// from it too.
+/// Every step can also be driven in reverse, so distances to a cell are distances from it,
+/// too.
 ///
 /// ```
 /// use wasmouse_sdk::{Cell, CellSet, Heading, Hop, Map, Pose, Search, View};
@@ -79,9 +78,8 @@ impl Search {
         self.search(passages, targets, None);
     }
 
-    /// Like [`fill`](Self::fill), but stops when the distance of `from` is known.
-    /// Then all cells that are nearer are known too, and those that are as far;
-    /// others are not, or count as not reached.
+    /// Like [`fill`](Self::fill), but stops when the distance of `from` is known. All cells
+    /// at most as far as `from` are known then; the others may count as not reached.
     pub fn fill_until(&mut self, passages: &Passages, targets: &CellSet, from: Cell) {
         self.search(passages, targets, Some(from));
     }
@@ -115,14 +113,14 @@ impl Search {
         })
     }
 
-    /// A shortest route to a target for a robot in this pose, hop by hop; empty
-    /// when there is none or the robot stands in a target.
+    /// A shortest route to a target for a robot in this pose, hop by hop; empty if there is
+    /// none or the robot is in a target.
     ///
-    /// Between routes of equal length it prefers to drive straight on, then to the
-    /// right, to the left, backwards; then longer hops to shorter ones.
+    /// Between routes of equal length it prefers to drive straight, then right, left,
+    /// backwards; then longer hops to shorter ones.
     ///
-    /// `passages` are those of the last search, or fewer: a search stays true while
-    /// the route it gives is whole, see [`first_hop`](Self::first_hop).
+    /// `passages` are those of the last search, or fewer: see
+    /// [`first_hop`](Self::first_hop).
     pub fn route<'a>(
         &'a self,
         passages: &'a Passages,
@@ -139,10 +137,10 @@ impl Search {
     /// The first hop of [`route`](Self::route), provided that the whole route still
     /// leads to a target.
     ///
-    /// Closing walls makes no route shorter. So as long as `passages` are those of
-    /// the last search with some more walls closed, a whole route is still a
-    /// shortest one, and there is no need to search again. `None` asks for a new
-    /// search (or says that there is no route).
+    /// Closing walls makes no route shorter. So as long as `passages` are those of the last
+    /// search with more walls closed, a route that is still open is still a shortest one, and
+    /// there is no need to search again. `None` means that a new search is needed, or that
+    /// there is no route.
     pub fn first_hop(&self, passages: &Passages, pose: Pose) -> Option<Hop> {
         let steps = self.steps(pose.cell)? as usize;
         let mut route = self.route(passages, pose);
@@ -150,12 +148,12 @@ impl Search {
         (route.count() + 1 == steps).then_some(first)
     }
 
-    /// The first hop of a shortest route to a target: [`first_hop`](Self::first_hop)
-    /// of the last search where that is still whole, of a new one otherwise; `None`
-    /// when there is no way, or no need for one.
+    /// The first hop of a shortest route to a target. Uses
+    /// [`first_hop`](Self::first_hop) of the last search if that route is still open, and
+    /// searches again otherwise. `None` if there is no path, or if the robot is in a target.
     ///
-    /// For a robot on its way to one set of targets: call it once a step, with the
-    /// same targets and with passages of which none opens on the way.
+    /// For a robot that drives to one set of targets: call it once per step, with the same
+    /// targets, and with passages of which none opens in the meantime.
     ///
     /// ```
     /// use wasmouse_sdk::{Cell, CellSet, Heading, Hop, Map, Pose, Search, View, Wall};

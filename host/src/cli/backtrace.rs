@@ -59,7 +59,8 @@ pub fn print(
 fn print_frames(robot: &str, frames: &[Frame]) {
     let robot = for_terminal(robot);
     let mut lines = format!("backtrace of `{robot}` (most recent call first):");
-    for (depth, frame) in frames.iter().enumerate() {
+    let shown = Frame::of_robot(frames);
+    for (depth, frame) in shown.iter().enumerate() {
         let function = for_terminal(&frame.function);
         lines.push_str(&format!("\n  {depth:>2}: {function}"));
         if let Some(source) = &frame.source {
@@ -67,6 +68,11 @@ fn print_frames(robot: &str, frames: &[Frame]) {
         } else if let Some(offset) = frame.offset {
             lines.push_str(&format!(" at offset {offset:#x}"));
         }
+    }
+    match frames.len() - shown.len() {
+        0 => {}
+        1 => lines.push_str("\n  (1 frame of the Rust runtime hidden)"),
+        hidden => lines.push_str(&format!("\n  ({hidden} frames of the Rust runtime hidden)")),
     }
     message!("{lines}");
 }

@@ -4,7 +4,7 @@
 //! {
 //!   "version": 2, "robot": "flood", "bytes": 30123, "digest": "...",
 //!   "kind": "component", "admitted": true, "rejection": null,
-//!   "imports": [], "exports": ["wasmouse:robot/controller@0.1.0"],
+//!   "imports": [], "exports": ["wasmouse:robot/controller@0.2.0"],
 //!   "requirements": {"memories": 1, "memory_bytes": 1114112, "tables": 1, "table_elements": 12},
 //!   "measures": [{"name": "functions", "found": 61, "max": 60000}],
 //!   "wit": "..."

@@ -4,6 +4,8 @@ use std::fmt;
 
 use serde_json::{Value, json};
 
+use crate::module::versioned;
+
 /// How the binary runs robots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
@@ -181,7 +183,7 @@ pub fn fault_in(phase: &str, step: u32, kind: &str, detail: &str) -> Value {
 
 /// The file is not admitted.
 pub fn refused(kind: &str, reason: &str) -> Value {
-    json!({"refusal": {"kind": kind, "reason": reason}})
+    json!({"refusal": {"kind": kind, "reason": versioned(reason)}})
 }
 
 /// The robot does no harm and gets nowhere.

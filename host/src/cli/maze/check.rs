@@ -100,7 +100,7 @@ fn survey(checked: &[Checked]) -> Survey {
     for checked in checked {
         match &checked.outcome {
             Ok(judged) => survey.add(&judged.maze),
-            Err(_) => survey.add_refused(),
+            Err(_) => survey.add_rejected(),
         }
     }
     survey

@@ -1,8 +1,9 @@
-//! Where native journal calls go: a list per thread, while an arena plays.
+//! Records journal calls natively: a list per thread, while a [`testing`](crate::testing)
+//! match runs.
 
 use std::cell::RefCell;
 
-use crate::journal::{Belief, Color, Level};
+use crate::bindings::wasmouse::robot::journal::{Belief, Color, Level};
 use crate::{Cell, Heading};
 
 /// One journal call, with the number of the step in which it was made.
@@ -10,11 +11,11 @@ use crate::{Cell, Heading};
 pub struct Entry {
     /// Steps of both runs, counted from 1; 0 during `start`.
     pub step: u32,
-    /// What was said.
+    /// What was reported.
     pub note: Note,
 }
 
-/// What one journal call said.
+/// What one journal call reported.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Note {
     /// A line of text.
@@ -38,10 +39,10 @@ thread_local! {
 
 /// Records this thread's journal calls until it is dropped or finished. Dropping
 /// matters when a robot panics: the next test on the thread starts clean.
-pub(super) struct Recorder(());
+pub(crate) struct Recorder(());
 
 impl Recorder {
-    pub(super) fn start() -> Self {
+    pub(crate) fn start() -> Self {
         RECORDING.set(Some(Recording {
             step: 0,
             entries: Vec::new(),
@@ -49,7 +50,7 @@ impl Recorder {
         Self(())
     }
 
-    pub(super) fn step(&self, step: u32) {
+    pub(crate) fn step(&self, step: u32) {
         RECORDING.with_borrow_mut(|recording| {
             if let Some(recording) = recording {
                 recording.step = step;
@@ -57,7 +58,7 @@ impl Recorder {
         });
     }
 
-    pub(super) fn finish(self) -> Vec<Entry> {
+    pub(crate) fn finish(self) -> Vec<Entry> {
         RECORDING.take().map_or_else(Vec::new, |it| it.entries)
     }
 }
