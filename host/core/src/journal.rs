@@ -47,15 +47,15 @@ pub enum Belief {
     Closed,
 }
 
-/// The content of an entry, with its text borrowed from the journal.
+/// The content of an entry. `Text` is `&str`, except inside a journal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Note<'a> {
+pub enum NoteOf<Text> {
     /// A line of text.
     Log {
         /// The importance of the line.
         level: Level,
         /// The text, unescaped.
-        text: &'a str,
+        text: Text,
     },
     /// A painted cell.
     Paint {
@@ -69,7 +69,7 @@ pub enum Note<'a> {
         /// The cell.
         cell: Cell,
         /// The text, unescaped; empty removes the label.
-        text: &'a str,
+        text: Text,
     },
     /// A belief about a wall.
     Wall {
@@ -80,6 +80,26 @@ pub enum Note<'a> {
         /// The belief.
         belief: Belief,
     },
+}
+
+/// The content of an entry, with its text borrowed from the journal or the robot.
+pub type Note<'a> = NoteOf<&'a str>;
+
+impl<Text> NoteOf<Text> {
+    fn map_text<To>(self, map: impl FnOnce(Text) -> To) -> NoteOf<To> {
+        match self {
+            Self::Log { level, text } => NoteOf::Log {
+                level,
+                text: map(text),
+            },
+            Self::Paint { cell, color } => NoteOf::Paint { cell, color },
+            Self::Label { cell, text } => NoteOf::Label {
+                cell,
+                text: map(text),
+            },
+            Self::Wall { cell, side, belief } => NoteOf::Wall { cell, side, belief },
+        }
+    }
 }
 
 /// A note and the step in which the robot wrote it.
@@ -116,25 +136,12 @@ pub struct JournalCounts {
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Journal {
-    entries: Vec<Stored>,
+    /// By step; the text of a note is a range of `text`.
+    entries: Vec<(u32, NoteOf<Range<usize>>)>,
     text: String,
     bytes_max: u64,
     bytes: u64,
     dropped: u64,
-}
-
-#[derive(Clone, Debug)]
-struct Stored {
-    step: u32,
-    note: StoredNote,
-}
-
-#[derive(Clone, Debug)]
-enum StoredNote {
-    Log(Level, Range<usize>),
-    Paint(Cell, Color),
-    Label(Cell, Range<usize>),
-    Wall(Cell, Heading, Belief),
 }
 
 /// The size of an entry without text towards the limit, in bytes.
@@ -153,27 +160,9 @@ impl Journal {
 
     /// The entries, in order.
     pub fn entries(&self) -> impl Iterator<Item = Entry<'_>> {
-        self.entries.iter().map(|stored| Entry {
-            step: stored.step,
-            note: match &stored.note {
-                StoredNote::Log(level, range) => Note::Log {
-                    level: *level,
-                    text: &self.text[range.clone()],
-                },
-                StoredNote::Paint(cell, color) => Note::Paint {
-                    cell: *cell,
-                    color: *color,
-                },
-                StoredNote::Label(cell, range) => Note::Label {
-                    cell: *cell,
-                    text: &self.text[range.clone()],
-                },
-                StoredNote::Wall(cell, side, belief) => Note::Wall {
-                    cell: *cell,
-                    side: *side,
-                    belief: *belief,
-                },
-            },
+        self.entries.iter().map(|(step, note)| Entry {
+            step: *step,
+            note: note.clone().map_text(|range| &self.text[range]),
         })
     }
 
@@ -195,37 +184,29 @@ impl Journal {
     /// The number of entries, and of those dropped because of the limit.
     pub fn counts(&self) -> JournalCounts {
         JournalCounts {
-            entries: u64::try_from(self.len()).unwrap_or(u64::MAX),
+            entries: self.len() as u64,
             dropped: self.dropped,
         }
     }
 
     /// Adds an entry, or counts it as dropped if it exceeds the limit.
     pub fn push(&mut self, step: u32, note: Note<'_>) {
-        let text = match note {
-            Note::Log { text, .. } | Note::Label { text, .. } => text,
-            Note::Paint { .. } | Note::Wall { .. } => "",
+        let length = match note {
+            Note::Log { text, .. } | Note::Label { text, .. } => text.len() as u64,
+            Note::Paint { .. } | Note::Wall { .. } => 0,
         };
-        let length = u64::try_from(text.len()).unwrap_or(u64::MAX);
-        let bytes = self
-            .bytes
-            .saturating_add(ENTRY_BYTES)
-            .saturating_add(length);
+        let bytes = self.bytes.saturating_add(ENTRY_BYTES + length);
         if bytes > self.bytes_max {
             self.dropped += 1;
             return;
         }
         self.bytes = bytes;
-        let start = self.text.len();
-        self.text.push_str(text);
-        let range = start..self.text.len();
-        let note = match note {
-            Note::Log { level, .. } => StoredNote::Log(level, range),
-            Note::Paint { cell, color } => StoredNote::Paint(cell, color),
-            Note::Label { cell, .. } => StoredNote::Label(cell, range),
-            Note::Wall { cell, side, belief } => StoredNote::Wall(cell, side, belief),
-        };
-        self.entries.push(Stored { step, note });
+        let note = note.map_text(|text| {
+            let start = self.text.len();
+            self.text.push_str(text);
+            start..self.text.len()
+        });
+        self.entries.push((step, note));
     }
 }
 

@@ -13,7 +13,8 @@ pub enum Run {
 }
 
 impl Run {
-    /// 1 for the exploration run, 2 for the speed run, as in [identity bytes](super::Trace::identity_bytes).
+    /// 1 for the exploration run, 2 for the speed run, as in
+    /// [`Trace::identity_bytes`](super::Trace::identity_bytes).
     pub const fn number(self) -> u8 {
         match self {
             Self::Exploration => 1,

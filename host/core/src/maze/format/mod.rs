@@ -1,8 +1,8 @@
 //! Maze files: five text formats, recognised by content, parsed and printed.
 //!
-//! One file per format, except that [`Format::Competition`] and [`Format::Map`] are two
-//! styles of one picture. Parsing is strict: an error names line, column, what was expected
-//! and what was found. All formats have in common:
+//! One file per format, except that three formats are styles of one picture. Parsing is strict:
+//! an error names line, column, what was expected and what was found. All formats have in
+//! common:
 //!
 //! - Lines end in LF or CRLF; the last line ending is optional; blank lines at the end are
 //!   ignored. A byte order mark at the start is skipped.
@@ -12,7 +12,6 @@
 //!
 //! The formats do not check contest rules: see [`violations`](super::violations).
 
-mod blocks;
 mod edges;
 mod error;
 mod kind;
@@ -20,7 +19,7 @@ mod num;
 mod parse;
 mod picture;
 mod print;
-mod row;
+mod style;
 #[cfg(test)]
 mod tests;
 mod text;

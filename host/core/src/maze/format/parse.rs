@@ -1,9 +1,9 @@
 //! [`parse`]: from text to a maze, in a format that is given or recognised.
 
 use super::super::{DIMENSIONS, Maze};
-use super::picture::{self, Style};
+use super::style::Style;
 use super::text::{Line, lines, quoted};
-use super::{Format, ParseError, blocks, num, udacity};
+use super::{Format, ParseError, num, picture, udacity};
 
 /// The contents of a maze file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -60,7 +60,7 @@ fn parse_lines(lines: &[Line<'_>], format: Format) -> Result<Maze, ParseError> {
         Format::Competition => picture::parse(lines, Style::Competition),
         Format::Map => picture::parse(lines, Style::Map),
         Format::Num => num::parse(lines),
-        Format::Blocks => blocks::parse(lines),
+        Format::Blocks => picture::parse(lines, Style::Blocks),
     }
 }
 

@@ -1,8 +1,8 @@
 //! [`print`]: from a maze to text.
 
 use super::super::{Area, Cell, Maze};
-use super::picture::{self, Style};
-use super::{Format, PrintError, blocks, num, udacity};
+use super::style::Style;
+use super::{Format, PrintError, num, picture, udacity};
 
 /// Prints a maze in a given format. Parsing the text gives an equal maze.
 ///
@@ -19,7 +19,7 @@ pub fn print(maze: &Maze, format: Format) -> Result<String, PrintError> {
         Format::Competition => picture::print(maze, Style::Competition),
         Format::Map => picture::print(maze, Style::Map),
         Format::Num => num::print(maze),
-        Format::Blocks => blocks::print(maze),
+        Format::Blocks => picture::print(maze, Style::Blocks),
     })
 }
 
