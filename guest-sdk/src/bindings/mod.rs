@@ -7,7 +7,6 @@
 #[rustfmt::skip]
 #[expect(
     clippy::allow_attributes,
-    clippy::unwrap_used,
     missing_docs,
     reason = "a generated file, compared with the output of its generator byte by byte"
 )]
