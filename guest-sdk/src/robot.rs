@@ -92,7 +92,7 @@ macro_rules! export_robot {
             // Called once, while the component is instantiated.
             #[unsafe(export_name = "_initialize")]
             extern "C" fn initialize() {
-                $crate::bindings::runtime::report_panics();
+                $crate::bindings::report_panics();
             }
         };
 

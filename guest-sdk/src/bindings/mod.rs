@@ -11,6 +11,9 @@
     reason = "a generated file, compared with the output of its generator byte by byte"
 )]
 mod generated;
+mod panics;
 pub mod runtime;
 
 pub use generated::{export, exports, wasmouse};
+#[cfg(target_arch = "wasm32")]
+pub use panics::report_panics;

@@ -1,5 +1,5 @@
-//! What the bindings need at run time, so that the SDK has no dependencies: the two
-//! functions of the crate `wit-bindgen` that the generated code calls, and the panic hook.
+//! The two functions of the crate `wit-bindgen` that the generated code calls, so that the SDK
+//! has no dependencies.
 
 /// Runs the module's static constructors before the first call into the robot.
 ///
@@ -27,20 +27,3 @@ pub fn run_ctors_once() {
 /// Would make the linker export an allocator for values that the host passes in memory.
 /// The host passes only numbers to a robot, so there is nothing to do.
 pub const fn maybe_link_cabi_realloc() {}
-
-/// Makes every panic end the match with the fault `panic` and a message of the form
-/// `MESSAGE (FILE:LINE:COLUMN)`, in place of a bare trap.
-///
-/// [`export_robot!`](crate::export_robot) calls it while the robot is instantiated, so it
-/// uses no fuel of `start` or `next-move`.
-#[cfg(target_arch = "wasm32")]
-pub fn report_panics() {
-    std::panic::set_hook(Box::new(|panic| {
-        let message = panic.payload_as_str().unwrap_or("panic");
-        let message = match panic.location() {
-            Some(location) => format!("{message} ({location})"),
-            None => message.to_owned(),
-        };
-        super::wasmouse::robot::journal::panic(&message);
-    }));
-}

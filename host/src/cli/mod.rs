@@ -37,7 +37,7 @@ mod worker;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, Parser, Subcommand};
 
 use exit::{EXIT_CODES_HELP, Exit};
 use failure::Failure;
@@ -85,8 +85,8 @@ pub fn main() -> ExitCode {
         Command::Maze(args) => maze::run(args),
         Command::New(args) => new::run(&args),
         Command::Build(args) => build::run(&args),
-        Command::Completions(args) => completions::run(&args),
-        Command::Man(args) => man::run(&args),
+        Command::Completions(args) => completions::run(&args, Cli::command()),
+        Command::Man(args) => man::run(&args, Cli::command()),
         Command::Worker(args) => worker::run(&args),
     };
     match outcome {
@@ -100,8 +100,6 @@ pub fn main() -> ExitCode {
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory as _;
-
     use super::*;
 
     #[test]
