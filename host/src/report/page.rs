@@ -2,7 +2,7 @@
 //!
 //! No scripts, and nothing is loaded from elsewhere; readable in light and dark, and without
 //! colours. Untrusted text is escaped for HTML by maud, and
-//! [`for_terminal`](super::escape::for_terminal) makes invisible characters visible.
+//! [`for_terminal`] makes invisible characters visible.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use wasmouse_core::game::Score;
