@@ -46,6 +46,8 @@ mod precheck;
 mod readme;
 /// Files that are no robots, and the reasons.
 mod refusals;
+/// The results document against its JSON Schema.
+mod results_schema;
 /// The example robots, natively, in mazes of every size and shape.
 mod robots_native;
 /// The SDK's testing arena against the recorded vectors and the host's simulation.
