@@ -15,6 +15,10 @@
 //! It compiles for `wasm32-unknown-unknown`.
 
 mod digest;
+#[cfg(all(test, not(fuzzing)))]
+mod fuzz;
+#[cfg(fuzzing)]
+pub mod fuzz;
 pub mod game;
 pub mod journal;
 pub mod maze;

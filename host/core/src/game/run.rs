@@ -41,9 +41,9 @@ pub struct Steps {
 }
 
 impl Steps {
-    /// Steps of both runs.
+    /// Steps of both runs. Saturates: a record that was read may claim any number.
     pub const fn total(self) -> u32 {
-        self.exploration + self.speed
+        self.exploration.saturating_add(self.speed)
     }
 
     /// Steps of one run.
