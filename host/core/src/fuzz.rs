@@ -187,7 +187,7 @@ pub fn record(bytes: &[u8]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use fuzz_harness::{Outcome, Target};
+    use fuzz_harness::Target;
 
     use super::*;
     use crate::game::{Action, FaultKind, Phase, Run, Steps};
@@ -195,19 +195,11 @@ mod tests {
     use crate::maze::{Turn, bundled};
     use crate::record::{EngineId, FuelUse};
 
-    const fn outcome(is_accepted: bool) -> Outcome {
-        if is_accepted {
-            Outcome::Accepted
-        } else {
-            Outcome::Rejected
-        }
-    }
-
     #[test]
     fn maze() {
         Target {
             name: "maze",
-            run: |bytes| outcome(super::maze(bytes)),
+            run: super::maze,
             seeds: maze_seeds,
             words: &[
                 b"o---o",
@@ -255,7 +247,7 @@ mod tests {
     fn specification() {
         Target {
             name: "specification",
-            run: |bytes| outcome(super::specification(bytes)),
+            run: super::specification,
             seeds: || {
                 let texts = [
                     "gen:braid:12:1",
@@ -289,7 +281,7 @@ mod tests {
     fn transcript() {
         Target {
             name: "transcript",
-            run: |bytes| outcome(super::transcript(bytes)),
+            run: super::transcript,
             seeds: transcript_seeds,
             words: &[&[0], &[1, 127], &[3, 128], &[1, 0]],
             bytes_max: 4 << 10,
@@ -323,7 +315,7 @@ mod tests {
     fn record() {
         Target {
             name: "record",
-            run: |bytes| outcome(super::record(bytes)),
+            run: super::record,
             seeds: record_seeds,
             words: &[
                 b"0",
