@@ -26,8 +26,6 @@ mod every_robot;
 mod faults;
 /// Maze files: reading, round trips, and a survey counted in another way.
 mod formats;
-/// A short run of every fuzz target.
-mod fuzz;
 /// Robots in WebAssembly text, and a good one beside them.
 mod hostile;
 /// Ctrl-C in a contest.

@@ -1,38 +1,82 @@
-//! `cargo xtask fuzz`: feeds changed inputs to what reads a stranger's bytes.
+//! `cargo xtask fuzz`: runs a fuzz target for longer than the tests do.
 //!
-//! The program is a part of the tests; here it is built and run.
+//! Under libFuzzer where `cargo-fuzz` is installed, else as a test with random inputs.
 
-use std::ffi::{OsStr, OsString};
 use std::path::Path;
+use std::process::{Command, Stdio};
 
 use crate::step::{Step, target_folder};
 
-/// Builds and fuzzes.
+/// The crates with fuzz targets, and their targets.
+const TARGETS: [(&str, &[&str]); 2] = [
+    (
+        "wasmouse-core",
+        &["maze", "specification", "transcript", "record"],
+    ),
+    (
+        "wasmouse-engine",
+        &[
+            "admission",
+            "requests",
+            "reports",
+            "matches",
+            "differential",
+        ],
+    ),
+];
+
+/// Runs a target for that many minutes, or lists all targets.
 ///
 /// # Errors
 ///
 /// A line that says what failed.
-pub fn run(root: &Path, arguments: &[OsString]) -> Result<(), String> {
-    Step::cargo("build", root)
-        // The same call as in `verify`, for the same reason.
-        .args(["build", "--workspace", "--bins", "--tests"])
-        .run()?;
-    let target = target_folder(root);
-    let program = |folder: &Path, name: &str| {
-        let name = format!("{name}{}", std::env::consts::EXE_SUFFIX);
-        folder.join("debug").join(name)
+pub fn run(root: &Path, target: Option<&str>, minutes: u64) -> Result<(), String> {
+    let Some(target) = target else {
+        for (package, targets) in TARGETS {
+            println!("{package}: {}", targets.join(", "));
+        }
+        return Ok(());
     };
-    let smith_target = target.join("smith");
-    Step::cargo("smith", root)
-        .args(["build", "--manifest-path", "tests/smith/Cargo.toml"])
-        .args([OsStr::new("--target-dir"), smith_target.as_os_str()])
+    let mut packages = TARGETS.into_iter();
+    let (package, _) = packages
+        .find(|(_, targets)| targets.contains(&target))
+        .ok_or_else(|| format!("unknown fuzz target `{target}`; `cargo xtask fuzz` lists them"))?;
+    let as_test = |name: &str| {
+        let filter = format!("fuzz::tests::{target}");
+        Step::cargo(name, root)
+            .args(["test", "--package", package, "--lib", "--"])
+            .args([&filter, "--nocapture"])
+    };
+    let seconds = (minutes * 60).to_string();
+    if !has_cargo_fuzz() {
+        eprintln!(
+            "cargo-fuzz is not installed, so inputs are random; with `cargo install cargo-fuzz` \
+             and a C++ compiler, coverage guides them"
+        );
+        return as_test("random inputs")
+            .env("WASMOUSE_FUZZ_SECONDS", seconds)
+            .run();
+    }
+    let corpus = target_folder(root).join("fuzz-corpus");
+    as_test("seeds")
+        .env("WASMOUSE_FUZZ_CORPUS", &corpus)
         .run()?;
-    Step::new("fuzzing", root, program(&target, "fuzz"))
-        .args([
-            OsStr::new("--smith"),
-            program(&smith_target, "smith").as_os_str(),
-        ])
-        .args([OsStr::new("--findings"), target.join("fuzz").as_os_str()])
-        .args(arguments)
+    Step::cargo("libFuzzer", root)
+        .args(["fuzz", "run", "--fuzz-dir", "tests/fuzz"])
+        // The sanitizers need a nightly compiler, and the crates have little unsafe code.
+        .args(["--sanitizer", "none", target])
+        .args([corpus.join(target)])
+        .args(["--", &format!("-max_total_time={seconds}")])
+        // Instrumentation is an unstable flag of the compiler.
+        .env("RUSTC_BOOTSTRAP", "1")
         .run()
+}
+
+fn has_cargo_fuzz() -> bool {
+    Command::new("cargo-fuzz")
+        .arg("--version")
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status()
+        .is_ok_and(|status| status.success())
 }

@@ -38,12 +38,13 @@ enum Command {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<OsString>,
     },
-    /// Feed changed inputs to what reads a stranger's bytes; `--help` tells more.
-    #[command(disable_help_flag = true)]
+    /// Fuzz a parser of untrusted input; without a target, list the targets.
     Fuzz {
-        /// Arguments for the program `fuzz`.
-        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
-        arguments: Vec<OsString>,
+        /// The fuzz target.
+        target: Option<String>,
+        /// How long to run.
+        #[arg(long, default_value_t = 10)]
+        minutes: u64,
     },
 }
 
@@ -55,7 +56,7 @@ fn main() -> ExitCode {
         Command::Robots { check: false } => robots::rebuild(&root),
         Command::Robots { check: true } => robots::check(&root),
         Command::Corpus { arguments } => corpus::run(&root, &arguments),
-        Command::Fuzz { arguments } => fuzz::run(&root, &arguments),
+        Command::Fuzz { target, minutes } => fuzz::run(&root, target.as_deref(), minutes),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

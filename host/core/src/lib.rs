@@ -43,6 +43,10 @@
 //! ```
 
 mod digest;
+#[cfg(all(test, not(fuzzing)))]
+mod fuzz;
+#[cfg(fuzzing)]
+pub mod fuzz;
 pub mod game;
 pub mod journal;
 pub mod maze;

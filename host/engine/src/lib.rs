@@ -18,6 +18,10 @@ pub mod admission;
 pub mod bundled;
 mod error;
 mod executor;
+#[cfg(all(test, not(fuzzing)))]
+mod fuzz;
+#[cfg(fuzzing)]
+pub mod fuzz;
 mod limits;
 mod runner;
 mod runtime;

@@ -1,3 +1,6 @@
+//! [`wasmouse_engine::fuzz::admission`].
 #![no_main]
 
-wasmouse_fuzz::target!("admission");
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    wasmouse_engine::fuzz::admission(bytes);
+});

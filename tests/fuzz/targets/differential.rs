@@ -1,3 +1,6 @@
+//! [`wasmouse_engine::fuzz::differential`].
 #![no_main]
 
-wasmouse_fuzz::target!("differential");
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    wasmouse_engine::fuzz::differential(bytes);
+});

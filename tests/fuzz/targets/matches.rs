@@ -1,3 +1,6 @@
+//! [`wasmouse_engine::fuzz::matches`].
 #![no_main]
 
-wasmouse_fuzz::target!("matches");
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    wasmouse_engine::fuzz::matches(bytes);
+});

@@ -1,3 +1,6 @@
+//! [`wasmouse_engine::fuzz::requests`].
 #![no_main]
 
-wasmouse_fuzz::target!("requests");
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    wasmouse_engine::fuzz::requests(bytes);
+});

@@ -152,7 +152,10 @@ impl CrateRules {
             Ok(manifest) => manifest,
             Err(error) => return vec![format!("Cargo.toml: {error}")],
         };
-        let tables = manifest.target.values().chain([&manifest]);
+        // What only a fuzzer builds is no part of the crate.
+        let targets = manifest.target.iter();
+        let targets = targets.filter(|(target, _)| *target != "cfg(fuzzing)");
+        let tables = targets.map(|(_, table)| table).chain([&manifest]);
         let names = tables.flat_map(|table| table.dependencies.keys());
         let is_known = |name: &String| {
             self.dependencies

@@ -332,14 +332,16 @@ fn name_and_attributes(item: &Item) -> (Option<String>, &[Attribute]) {
     (Some(name.to_string()), attributes)
 }
 
-/// Whether there is a `#[cfg(test)]`, or a `#[cfg(all(test, ...))]`.
+/// Whether the item exists only in tests or for a fuzzer: there is a `#[cfg(test)]`,
+/// `#[cfg(all(test, ...))]`, `#[cfg(fuzzing)]` or `#[cfg(any(test, fuzzing))]`.
 fn is_test(attributes: &[Attribute]) -> bool {
     let mut conditions = attributes.iter().filter(|it| it.path().is_ident("cfg"));
     conditions.any(|attribute| {
         let condition = attribute.meta.require_list();
         let condition = condition.map_or(String::new(), |list| list.tokens.to_string());
         let condition = condition.replace(' ', "");
-        condition == "test" || condition.starts_with("all(test,")
+        let only = ["test", "fuzzing", "any(test,fuzzing)"];
+        only.contains(&condition.as_str()) || condition.starts_with("all(test,")
     })
 }
 

@@ -42,7 +42,7 @@ pub struct Steps {
 }
 
 impl Steps {
-    /// Steps of both runs.
+    /// Steps of both runs. Saturates: a record that was read may claim any number.
     pub const fn total(self) -> u32 {
         self.exploration.saturating_add(self.speed)
     }

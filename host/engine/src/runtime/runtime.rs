@@ -90,7 +90,8 @@ impl Runtime {
         Self::with_engine(config::new_backtrace_engine(&limits)?, limits, None)
     }
 
-    fn with_engine(
+    /// A runtime on an engine of any configuration.
+    pub(crate) fn with_engine(
         engine: Engine,
         limits: Limits,
         cache: Option<Cache>,

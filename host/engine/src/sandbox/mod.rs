@@ -10,6 +10,8 @@
 //! own simulation, so a score comes from the rules and not from the worker.
 
 pub mod child;
+#[cfg(any(test, fuzzing))]
+pub(crate) mod fuzz;
 mod protocol;
 mod role;
 mod supervisor;

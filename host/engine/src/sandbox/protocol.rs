@@ -24,7 +24,7 @@ use crate::runtime::{Frame, engine_id};
 
 /// The largest frame, in bytes: a match of 10,000 steps with a full journal has less. A value
 /// that is read from a frame takes up to 16 times its bytes.
-const FRAME_BYTES_MAX: usize = 4 << 20;
+pub(super) const FRAME_BYTES_MAX: usize = 4 << 20;
 
 /// What a worker has to be: the same version and engine as the supervisor.
 pub(super) fn build() -> String {

@@ -4,7 +4,7 @@ mod backtrace;
 mod compile;
 mod confine;
 mod pipes;
-mod run;
+pub(super) mod run;
 mod setup;
 
 pub use backtrace::{enter as enter_backtrace, main as backtrace_main};

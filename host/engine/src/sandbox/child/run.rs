@@ -85,22 +85,26 @@ where
 }
 
 /// What the worker keeps between requests.
-struct Table {
+pub(in crate::sandbox) struct Table {
     runtime: Runtime,
     rules: Arc<wasmouse_core::game::Ruleset>,
     /// The parts of every key that are the same for all matches.
     engine_digest: Digest,
     rules_digest: Digest,
     /// By slot.
-    robots: Vec<Option<CompiledRobot>>,
+    pub(in crate::sandbox) robots: Vec<Option<CompiledRobot>>,
     /// By slot, with the digest.
-    mazes: Vec<Option<(Digest, Arc<Maze>)>>,
+    pub(in crate::sandbox) mazes: Vec<Option<(Digest, Arc<Maze>)>>,
     recording: Recording,
     before_match: &'static (dyn Fn(u64) + Sync),
 }
 
 impl Table {
-    fn new(runtime: Runtime, setup: Setup, before_match: &'static (dyn Fn(u64) + Sync)) -> Self {
+    pub(in crate::sandbox) fn new(
+        runtime: Runtime,
+        setup: Setup,
+        before_match: &'static (dyn Fn(u64) + Sync),
+    ) -> Self {
         Self {
             runtime,
             engine_digest: engine_id().digest(),
@@ -114,7 +118,7 @@ impl Table {
     }
 
     /// Does what a request asks; the bytes that follow the request come from `from`.
-    fn answer(
+    pub(in crate::sandbox) fn answer(
         &mut self,
         request: Request,
         from: &mut impl Read,
@@ -176,9 +180,24 @@ impl Table {
     }
 
     fn run_one(&mut self, batch: &RunBatch, order: &MatchOrder) -> io::Result<MatchReport> {
-        let unknown = || io::Error::other("a match of an unknown robot or maze");
-        let robot = get(&self.robots, batch.robot).ok_or_else(unknown)?;
-        let (maze_digest, maze) = get(&self.mazes, order.maze).ok_or_else(unknown)?;
+        let mut recording = std::mem::take(&mut self.recording);
+        let (robot, spec) = self
+            .find(batch, order)
+            .ok_or_else(|| io::Error::other("a match of an unknown robot or maze"))?;
+        let ran = self.runtime.run(robot, &spec, &mut recording);
+        let report = report(ran, &recording, batch.details);
+        self.recording = recording;
+        Ok(report)
+    }
+
+    /// The robot and the specification of a match; `None` when a slot is empty.
+    pub(in crate::sandbox) fn find(
+        &self,
+        batch: &RunBatch,
+        order: &MatchOrder,
+    ) -> Option<(&CompiledRobot, MatchSpec)> {
+        let robot = get(&self.robots, batch.robot)?;
+        let (maze_digest, maze) = get(&self.mazes, order.maze)?;
         let spec = MatchSpec {
             key: MatchKey {
                 engine: self.engine_digest,
@@ -191,8 +210,7 @@ impl Table {
             maze: Arc::clone(maze),
             rules: Arc::clone(&self.rules),
         };
-        let ran = self.runtime.run(robot, &spec, &mut self.recording);
-        Ok(report(ran, &self.recording, batch.details))
+        Some((robot, spec))
     }
 }
 

@@ -15,7 +15,7 @@ const DETAIL_BYTES_MAX: usize = 16 << 10;
 /// Why a worker's report cannot be true: the worker is broken, or a robot has taken it over.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("protocol violation: {0}")]
-pub(super) struct ProtocolViolation(String);
+pub(in crate::sandbox) struct ProtocolViolation(String);
 
 fn violation<T>(what: &str) -> Result<T, ProtocolViolation> {
     Err(ProtocolViolation(what.to_owned()))
@@ -28,7 +28,7 @@ fn violation<T>(what: &str) -> Result<T, ProtocolViolation> {
 ///
 /// When no match can have gone so. The inner error is a failure of the host that the worker
 /// reports.
-pub(super) fn check(
+pub(in crate::sandbox) fn check(
     report: MatchReport,
     spec: &MatchSpec,
     recording: &mut Recording,

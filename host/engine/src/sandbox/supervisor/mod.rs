@@ -1,7 +1,7 @@
 //! The side of the supervisor: starts and watches worker processes, and checks their reports.
 
 mod admit;
-mod check;
+pub(super) mod check;
 mod compiler;
 mod monitor;
 mod play;

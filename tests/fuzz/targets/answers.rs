@@ -1,3 +1,0 @@
-#![no_main]
-
-wasmouse_fuzz::target!("answers");

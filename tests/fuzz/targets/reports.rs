@@ -1,0 +1,6 @@
+//! [`wasmouse_engine::fuzz::reports`].
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    wasmouse_engine::fuzz::reports(bytes);
+});
