@@ -10,7 +10,7 @@ pub enum Rejection {
     /// The file has no bytes.
     #[error("the file is empty")]
     Empty,
-    /// The file is larger than the ruleset allows.
+    /// The file is larger than the limits allow.
     #[error("the file has more than {max} bytes")]
     TooLarge {
         /// The limit in bytes.
@@ -25,13 +25,13 @@ pub enum Rejection {
     /// The file is malformed, or uses a proposal that is turned off.
     #[error("the component is not valid: {0}")]
     Invalid(String),
-    /// The component asks for something that a robot does not get.
-    #[error("the component imports `{0}`, which a robot does not get")]
+    /// The component imports something that is not available to robots.
+    #[error("the component imports `{0}`, which is not available to robots")]
     UnknownImport(String),
     /// The component does not export the controller.
     #[error("the component does not export `{CONTROLLER}`; it exports {exports}", exports = list(.0))]
     NoController(Vec<String>),
-    /// An import or export has another type than in the WIT.
+    /// An import or export has a type that differs from the WIT.
     #[error("the component does not fit the world `robot`: {0}")]
     WrongType(String),
     /// Its compilation took too much, or ended the process that compiled it.
@@ -47,7 +47,7 @@ pub enum Rejection {
         /// As [`Rejection::hint`] there.
         hint: String,
     },
-    /// The file holds more than the ruleset allows, before anything of it runs.
+    /// The file exceeds a limit, before anything of it runs.
     #[error("the file has {found} {what}, and the limit is {max} ({at})")]
     OverLimit {
         /// What is counted, as the words after a number.
@@ -127,11 +127,11 @@ mod tests {
     #[test]
     fn long_lists_of_names_end() {
         let names: Vec<String> = (1..=20).map(|number| format!("e{number}")).collect();
-        let told = Rejection::NoController(names).to_string();
+        let text = Rejection::NoController(names).to_string();
         assert!(
-            told.ends_with("it exports `e1`, `e2`, `e3`, `e4`, `e5`, `e6`, `e7`, `e8`, 12 more")
+            text.ends_with("it exports `e1`, `e2`, `e3`, `e4`, `e5`, `e6`, `e7`, `e8`, 12 more")
         );
-        let told = Rejection::NoController(Vec::new()).to_string();
-        assert!(told.ends_with("it exports nothing"), "{told}");
+        let text = Rejection::NoController(Vec::new()).to_string();
+        assert!(text.ends_with("it exports nothing"), "{text}");
     }
 }
