@@ -5,6 +5,5 @@ pub mod binary;
 pub mod bombs;
 pub mod composite;
 pub mod corpus;
-pub mod fuzz;
 pub mod module;
 pub mod program;
