@@ -3,13 +3,14 @@
 use std::fs;
 use std::path::Path;
 
-use wasmouse::maze::{self, format};
-use wasmouse::robot::bundled::{BundledRobot, bundled};
-use wasmouse::robot::{Game, Host, Outcome, Recorder, Robot};
-use wasmouse::sim::Ruleset;
+use wasmouse_core::game::SandboxLimits;
+use wasmouse_engine::bundled::bundled;
+use wasmouse_engine::{Limits, Recording, Runtime};
 use xtask::manifest::Manifest;
 use xtask::verify::BUILT_ROBOTS_VARIABLE;
 use xtask::{repository, robots};
+
+use crate::matches::{bundled_mazes, rules, spec, variants};
 
 #[test]
 fn no_prebuilt_robot_is_stale() {
@@ -31,8 +32,8 @@ fn the_host_embeds_what_the_manifest_lists() {
         assert_eq!(embedded.sha256, listed.sha256);
         assert_eq!(xtask::sources::sha256(embedded.component), listed.sha256);
         assert_eq!(embedded.component.len(), listed.size_bytes);
-        let settings: Vec<_> = embedded
-            .settings
+        let variants: Vec<_> = embedded
+            .variants
             .iter()
             .map(|it| (it.value, it.name, it.description))
             .collect();
@@ -41,11 +42,11 @@ fn the_host_embeds_what_the_manifest_lists() {
             .iter()
             .map(|it| (it.value, it.name.as_str(), it.description.as_str()))
             .collect();
-        assert_eq!(settings, expected, "{}", embedded.name);
+        assert_eq!(variants, expected, "{}", embedded.name);
     }
 }
 
-/// Robots that were built from source just now answer as the prebuilt ones do.
+/// Robots that were built from source just now play as the prebuilt ones do.
 /// Fuel is not compared: another compiler may need other instructions.
 #[test]
 fn robots_built_from_source_play_the_same_matches() {
@@ -53,48 +54,24 @@ fn robots_built_from_source_play_the_same_matches() {
         println!("skipped: `cargo xtask test` builds the robots from source for this test");
         return;
     };
-    let rules = Ruleset::default();
-    let host = Host::new(rules.limits, 1, None).expect("address space for one match");
+    let rules = rules(SandboxLimits::default());
+    let runtime = Runtime::new(Limits::default(), 1, None).expect("address space");
     for prebuilt in bundled() {
         let file = Path::new(&built).join(prebuilt.name).with_extension("wasm");
         let source = fs::read(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
-        let admit = |bytes: &[u8]| host.admit(bytes).expect("bundled robots are admitted");
-        let (prebuilt_robot, source_robot) = (admit(prebuilt.component), admit(&source));
-        for setting in settings(prebuilt) {
-            for bundled_maze in maze::bundled() {
-                let parsed = format::parse(bundled_maze.text).expect("bundled mazes parse");
-                let game = Game {
-                    maze: &parsed.maze,
-                    rules: &rules,
-                    seed: 1,
-                    setting,
-                };
-                let (expected, expected_record) = play(&host, &prebuilt_robot, &game);
-                let (found, found_record) = play(&host, &source_robot, &game);
-                let place = format!(
-                    "{}, setting {setting}, {}",
-                    prebuilt.name, bundled_maze.name
-                );
-                assert_eq!(found.verdict, expected.verdict, "{place}");
-                assert_eq!(found.steps, expected.steps, "{place}");
-                assert_eq!(found.counts, expected.counts, "{place}");
-                assert_eq!(found_record.trace, expected_record.trace, "{place}");
+        let admit = |bytes: &[u8]| runtime.admit(bytes).expect("bundled robots are admitted");
+        let robots = [admit(prebuilt.component), admit(&source)];
+        for (variant, _) in variants(prebuilt) {
+            for (maze_name, maze) in bundled_mazes() {
+                let [expected, found] = robots.each_ref().map(|robot| {
+                    let spec = spec(&rules, robot.digest(), &maze, (variant, 1));
+                    let mut recording = Recording::default();
+                    let played = runtime.run(robot, &spec, &mut recording);
+                    let (result, _) = played.expect("the host works");
+                    (result, recording.transcript)
+                });
+                assert_eq!(found, expected, "{}:{variant}, {maze_name}", prebuilt.name);
             }
         }
     }
-}
-
-fn settings(robot: &BundledRobot) -> Vec<u32> {
-    if robot.settings.is_empty() {
-        return vec![0];
-    }
-    robot.settings.iter().map(|setting| setting.value).collect()
-}
-
-fn play(host: &Host, robot: &Robot, game: &Game<'_>) -> (Outcome, Recorder) {
-    let mut recorder = Recorder::default();
-    let outcome = host
-        .play(robot, game, &mut recorder)
-        .expect("the host does not fail");
-    (outcome, recorder)
 }

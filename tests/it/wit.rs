@@ -37,7 +37,7 @@ fn the_history_ends_with_the_file_as_it_is() {
     assert_eq!(
         last.sha256, sha256,
         "wit/robot.wit has changed: add a row to the history in wit/README.md, \
-         which says what else has to change with it"
+         which lists what else must change with it"
     );
 }
 
@@ -49,6 +49,6 @@ fn the_last_version_is_that_of_the_package() {
         read("wit/robot.wit").contains(&package),
         "no line `{package}`"
     );
-    let start = wasmouse::robot::componentize::CONTROLLER_EXPORTS[0];
+    let start = wasmouse_engine::admission::CONTROLLER_EXPORTS[0];
     assert!(start.contains(&format!("@{}#", last.version)), "{start}");
 }
