@@ -13,11 +13,15 @@ mod champion;
 // mod cli;
 /// The rules: recorded matches and matches written by hand.
 mod conformance;
+/// The hostile corpus, in this process.
+mod corpus;
 // mod determinism;
 /// Every bundled robot: the same match natively, correct maps, and who must finish.
 mod every_robot;
 /// Killed processes, full disks, damaged files.
 mod faults;
+/// Results of every bundled robot, compared with a table to the last unit of fuel.
+mod fingerprints;
 /// Maze files: reading, round trips, and a survey counted in another way.
 mod formats;
 // mod fuzz;
