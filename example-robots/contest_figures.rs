@@ -8,13 +8,13 @@ use wasmouse_sdk::testing::{self, PlayOptions};
 
 use crate::contest_mazes::contest_mazes;
 
-/// Plays the official mazes that are here: the number of the maze, the setting, and
+/// Plays the official mazes that are here: the number of the maze, the variant, and
 /// how the match has to go.
 pub fn check<R: Robot>(figures: &[(u8, u32, &str)]) {
     let mazes = contest_mazes();
-    for &(number, setting, expected) in figures {
+    for &(number, variant, expected) in figures {
         if let Some((_, maze)) = mazes.iter().find(|it| it.0 == number) {
-            testing::check::<R>(maze, &PlayOptions::of_setting(setting), expected);
+            testing::check::<R>(maze, &PlayOptions::of_variant(variant), expected);
         }
     }
 }

@@ -1,7 +1,7 @@
-//! What can be said for certain about the best path: [`Certificate`].
+//! Bounds on the length of the best path: [`Certificate`].
 //!
-//! The idea is in Minnett's report: the shortest path if every unknown wall is open,
-//! and the shortest if every unknown wall is closed. The truth lies between them.
+//! The idea is from Minnett's report: the shortest path if every unknown wall is open, and
+//! the shortest if every unknown wall is closed. The best path is between the two.
 
 use crate::{Cell, CellSet, Map, Search, View};
 
@@ -22,16 +22,15 @@ use crate::{Cell, CellSet, Map, Search, View};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Certificate {
-    /// Steps if every unknown wall is open: the path is not shorter. `None` when
-    /// there is certainly no path.
+    /// Steps if every unknown wall is open: a lower bound. `None` if there is certainly no
+    /// path.
     pub at_least: Option<u32>,
-    /// Steps through walls known to be open: the path is not longer. `None` when no
-    /// path is known.
+    /// Steps through walls known to be open: an upper bound. `None` if no path is known.
     pub at_most: Option<u32>,
 }
 
 impl Certificate {
-    /// The bounds that a map gives, searched for with these buffers.
+    /// The bounds for a map. Refills `search`.
     pub fn of(map: &Map, from: Cell, targets: &CellSet, search: &mut Search) -> Self {
         let mut steps = |view| {
             search.fill_until(map.passages(view), targets, from);
@@ -43,8 +42,7 @@ impl Certificate {
         }
     }
 
-    /// Whether a path is known that no other is shorter than, whatever the unknown
-    /// walls are.
+    /// Whether the shortest known path is the best one, whatever the unknown walls are.
     pub const fn is_proven(self) -> bool {
         match (self.at_least, self.at_most) {
             (Some(least), Some(most)) => least == most,

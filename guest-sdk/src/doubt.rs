@@ -1,8 +1,8 @@
-//! What stands between a robot and a proof that its race is the best: [`Doubt`].
+//! The next wall to look at before the best path is certain: [`Doubt`].
 
 use crate::{Cell, CellSet, Heading, Map, Pose, Search, View};
 
-/// A wall that has not been seen, on the best path that may exist.
+/// An unknown wall on the best path that may exist.
 ///
 /// ```
 /// use wasmouse_sdk::{Area, Cell, CellSet, Doubt, Heading, Map, Pose, Search, Sensors};
@@ -16,21 +16,21 @@ use crate::{Cell, CellSet, Heading, Map, Pose, Search, View};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Doubt {
-    /// The cell on this side of the wall; known to be reached from the start.
+    /// The cell on this side of the wall; known to be reachable from the start.
     pub cell: Cell,
-    /// On which side of it the wall is.
+    /// The side of the cell that has the wall.
     pub side: Heading,
 }
 
 impl Doubt {
-    /// The first unknown wall on the path of fewest steps from `start` to `goal`,
-    /// unknown walls taken for open.
+    /// The first unknown wall on the path with the fewest steps from `start` to `goal`,
+    /// treating unknown walls as open.
     ///
-    /// `None` when that whole path is known to be open: then no better one exists. Or
-    /// when there is no path at all. A robot that drives to the cell, looks at the
-    /// wall and asks again comes to that end, because every answer is news.
+    /// `None` if that whole path is known to be open, so that no better one exists, or if
+    /// there is no path. A robot that drives to the cell, looks at the wall and asks again
+    /// gets there, because it learns a wall each time.
     ///
-    /// Fills `search` anew.
+    /// Refills `search`.
     pub fn first(map: &Map, search: &mut Search, start: Cell, goal: &CellSet) -> Option<Self> {
         let passages = map.passages(View::Optimistic);
         search.fill_until(passages, goal, start);

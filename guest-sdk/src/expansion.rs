@@ -1,10 +1,10 @@
-//! A way found by counting squares: [`Expansion`].
+//! A path found by counting squares: [`Expansion`].
 //!
-//! The search of simple maze robots: squares are opened one after the other, each
-//! gets the next number, and the way is built in reverse, from the target over ever
-//! smaller numbers. It knows no steps and promises no shortest way; for that there
-//! are [`Search`](crate::Search) and [`AStar`](crate::AStar). The robots of Lobato's
-//! report (2016) are built on it.
+//! The search of simple maze robots: squares are opened one after the other, each gets the
+//! next number, and the path is built backwards from the target, always to a smaller number.
+//! It does not count steps and does not guarantee a shortest path; use
+//! [`Search`](crate::Search) or [`WeightedSearch`](crate::WeightedSearch) for that. The robots
+//! of Lobato's report (2016) use it.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -19,7 +19,7 @@ const ORDER: [Heading; 4] = [Heading::Up, Heading::Left, Heading::Down, Heading:
 /// The number of a square that has not been opened.
 const CLOSED: u16 = u16::MAX;
 
-/// Numbers for every square, with buffers that are reused.
+/// Numbers forevery square, with reusable buffers.
 ///
 /// ```
 /// use wasmouse_sdk::{Cell, CellSet, Expansion, Heading, Hop, Map, View};
@@ -31,11 +31,11 @@ const CLOSED: u16 = u16::MAX;
 /// let targets = CellSet::from(target);
 /// let mut expansion = Expansion::new(12);
 ///
-/// // First opened, first gone on from: breadth first.
+/// // All ranks are equal, so the first square opened is expanded first: breadth first.
 /// let hop = expansion.first_hop(is_open, from, &targets, |_, _| 0);
 /// assert_eq!(hop, Some(Hop { heading: Heading::Up, cells: 1 }));
 ///
-/// // The way so far and an estimate of the rest make it A*.
+/// // The path so far plus an estimate of the rest make it A*.
 /// let hop = expansion.first_hop(is_open, from, &targets, |cell, walked| {
 ///     u64::from(walked + cell.manhattan(target))
 /// });
@@ -44,9 +44,9 @@ const CLOSED: u16 = u16::MAX;
 #[derive(Clone, Debug)]
 pub struct Expansion {
     dimension: u32,
-    /// In which turn each square was opened, by column and row.
+    /// When each square was opened, by column and row.
     numbers: Vec<u16>,
-    /// The squares to go on from.
+    /// The squares to expand next.
     open: BinaryHeap<Reverse<Entry>>,
 }
 
@@ -55,7 +55,7 @@ pub struct Expansion {
 struct Entry {
     rank: u64,
     number: u16,
-    /// Cells from the first square, the way it was opened.
+    /// Cells from the first square, on the path by which it was opened.
     walked: u32,
     square: Cell,
 }
@@ -78,18 +78,18 @@ impl Expansion {
         }
     }
 
-    /// The first straight stretch of the way from `from` to one of `targets`, as far
-    /// as it goes; `None` when there is no way, or no need for one.
+    /// The first straight stretch of the path from `from` to one of `targets`; `None` if
+    /// there is no path, or if `from` is a target.
     ///
-    /// `is_open` says whether the robot may drive out of a square on that side, which
-    /// need not be the same from both squares; it is `false` for the perimeter.
+    /// `is_open` says whether the robot may leave a square on that side, which need not be
+    /// the same from both squares. It must be `false` for the perimeter.
     ///
-    /// Squares are gone on from by their rank, the smallest first, and among equals
-    /// in the order in which they were opened. `rank` is asked once for every square,
-    /// with the number of cells walked to it. A square is opened once, from wherever
-    /// it is met first, and its neighbours in the order up, left, down, right; the
-    /// expansion ends when a target is gone on from. The way back goes to the
-    /// neighbour with the smallest number that may be driven out of.
+    /// Squares are expanded by rank, the smallest first, and among equals in the order in
+    /// which they were opened. `rank` is called once forevery square, with the number of
+    /// cells walked to it. A square is opened once, from wherever it is reached first, and
+    /// its neighbours in the order up, left, down, right. The expansion ends when a target is
+    /// expanded. The path back always goes to the neighbour with the smallest number from
+    /// which the robot may enter the square.
     ///
     /// # Panics
     ///
@@ -105,7 +105,7 @@ impl Expansion {
         self.way_back(&is_open, target)
     }
 
-    /// Opens square after square until it goes on from a target, and returns that.
+    /// Expands squares until one of them is a target, and returns it.
     fn expand(
         &mut self,
         is_open: &impl Fn(Cell, Heading) -> bool,
@@ -145,8 +145,8 @@ impl Expansion {
         None
     }
 
-    /// Walks from the target to the square with the number 0, and returns the last
-    /// straight stretch of that, turned around.
+    /// Walks from the target to the square with the number 0, and returns the last straight
+    /// stretch of that path, reversed.
     fn way_back(&self, is_open: &impl Fn(Cell, Heading) -> bool, target: Cell) -> Option<Hop> {
         let mut square = target;
         let mut stretch: Option<Hop> = None;
@@ -169,7 +169,7 @@ impl Expansion {
         stretch
     }
 
-    /// The square on that side, walls or not.
+    /// The neighbouring square on that side, ignoring walls.
     fn neighbor(&self, square: Cell, heading: Heading) -> Option<Cell> {
         let beyond = square.toward(heading, 1)?;
         (beyond.x < self.dimension && beyond.y < self.dimension).then_some(beyond)
@@ -197,7 +197,7 @@ mod tests {
         passages
     }
 
-    /// Drives hop by hop; the number of cells, or `None` when there is no way.
+    /// Drives hop by hop; the number of cells, or `None` when there is no path.
     fn drive(
         is_open: impl Fn(Cell, Heading) -> bool + Copy,
         from: Cell,
@@ -219,7 +219,7 @@ mod tests {
         Some(cells)
     }
 
-    /// Breadth first, the way is a shortest one, and there is one wherever a search
+    /// Breadth first, the path is a shortest one, and there is one wherever a search
     /// of another kind finds one.
     #[test]
     fn breadth_first_is_shortest() {
@@ -239,7 +239,7 @@ mod tests {
         assert!(found > 100, "only {found} ways: a weak test");
     }
 
-    /// A square is gone on from by its rank: with the far corner preferred, the way
+    /// A square is gone on from by its rank: with the far corner preferred, the path
     /// to the near one is found late, and by the numbers of a detour.
     #[test]
     fn ranks_decide() {

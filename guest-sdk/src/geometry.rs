@@ -1,8 +1,7 @@
-//! What the plain values of the contract can do: [`Cell`], [`Heading`],
-//! [`Turn`], [`Area`], [`Action`] and [`Briefing`].
+//! Methods of the types in `wit/robot.wit`: [`Cell`], [`Heading`], [`Turn`], [`Area`],
+//! [`Action`] and [`Briefing`].
 //!
-//! The types themselves are generated from `wit/robot.wit`. Pure arithmetic;
-//! which walls stand is the business of [`Map`](crate::Map).
+//! Arithmetic only; [`Map`](crate::Map) knows the walls.
 
 use crate::{Action, Area, Briefing, BudgetScope, Cell, Heading, Move, Turn};
 
@@ -15,8 +14,8 @@ impl Cell {
         Self { x, y }
     }
 
-    /// The cell `distance` cells further in that direction, walls or not; `None`
-    /// below row or column 0. The upper bounds are the maze's.
+    /// The cell `distance` cells away in that direction, ignoring walls; `None` below row or
+    /// column 0. Does not check the size of the maze.
     ///
     /// ```
     /// use wasmouse_sdk::{Cell, Heading};
@@ -36,7 +35,7 @@ impl Cell {
         }
     }
 
-    /// How many rows and columns lie between the two cells, in cells.
+    /// The Manhattan distance between two cells.
     pub const fn manhattan(self, other: Self) -> u32 {
         self.x.abs_diff(other.x) + self.y.abs_diff(other.y)
     }
@@ -61,13 +60,13 @@ impl Heading {
         Self::ALL[(self as usize + quarters) & 3]
     }
 
-    /// The heading that looks back.
+    /// The opposite heading.
     pub const fn opposite(self) -> Self {
         Self::ALL[(self as usize + 2) & 3]
     }
 
-    /// The turn that makes a robot with this heading look in direction `target`;
-    /// `None` when that is behind it, because one step cannot turn that far.
+    /// The turn from this heading to `target`; `None` if that is behind the robot, because
+    /// one step cannot turn that far.
     ///
     /// ```
     /// use wasmouse_sdk::{Heading, Turn};
@@ -94,8 +93,8 @@ impl Area {
         }
     }
 
-    /// The goal room of a contest maze: the 2 x 2 cells in the centre; the single
-    /// centre cell where `dimension` is odd.
+    /// The goal room of a contest maze: the 2 x 2 cells in the centre, or the single centre
+    /// cell if `dimension` is odd.
     pub const fn center(dimension: u32) -> Self {
         let low = dimension.saturating_sub(1) / 2;
         let side = if dimension.is_multiple_of(2) { 2 } else { 1 };
@@ -134,11 +133,11 @@ impl Action {
 }
 
 impl Briefing {
-    /// The briefing of the ruleset `udacity` for a contest maze of this dimension:
-    /// start (0, 0), goal in the centre, 1000 steps for both runs together, moves
-    /// of up to 3 cells, exploration divided by 30, seed 0, setting 0.
+    /// The briefing of the ruleset `udacity` for a contest maze of this size: start (0, 0),
+    /// goal in the centre, 1000 steps for both runs together, moves of up to 3 cells,
+    /// exploration steps divided by 30, seed 0, variant 0.
     ///
-    /// For tests; in a match the host hands out the briefing.
+    /// For tests; in a match the host provides the briefing.
     pub const fn contest(dimension: u32) -> Self {
         Self {
             dimension,
@@ -147,9 +146,10 @@ impl Briefing {
             budget: 1000,
             budget_scope: BudgetScope::BothRuns,
             longest_move: 3,
+            units_per_cell: 1,
             exploration_divisor: 30,
             seed: 0,
-            setting: 0,
+            variant: 0,
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Cells and walls as plain numbers: [`Grid`].
 //!
-//! For planners that keep arrays of their own, one value per cell or per wall, and
-//! walk through them often. [`Map`](crate::Map) and [`Passages`](crate::Passages)
-//! keep bits and are asked by [`Cell`]; this is only arithmetic and keeps nothing.
+//! For planners that have arrays with one value per cell or per wall.
+//! [`Map`](crate::Map) and [`Passages`](crate::Passages) store bits and take [`Cell`]s; this
+//! is arithmetic only and stores nothing.
 
 use crate::geometry::DIMENSION_MAX;
 use crate::{Cell, Heading};
@@ -53,12 +53,12 @@ impl Grid {
         self.dimension
     }
 
-    /// How long an array with a value for every cell is, margin included.
+    /// The length of an array with a value forevery cell, including the margin.
     pub const fn cell_count(self) -> usize {
         self.width * self.width
     }
 
-    /// How long an array with a value for every wall is, margin included.
+    /// The length of an array with a value forevery wall, including the margin.
     pub const fn wall_count(self) -> usize {
         2 * self.cell_count()
     }
@@ -78,7 +78,7 @@ impl Grid {
         }
     }
 
-    /// The number of the neighbour on that side of a cell, walls or not.
+    /// The number of the neighbouring cell on that side, ignoring walls.
     #[inline]
     pub const fn beyond(self, cell: usize, heading: Heading) -> usize {
         match heading {
@@ -126,8 +126,8 @@ impl Grid {
         })
     }
 
-    /// The eight walls that decide what a wall is like: those that meet it at a
-    /// post, and those opposite to it in its two cells.
+    /// The eight neighbours of a wall: those that meet it at a post, and those opposite to
+    /// it in its two cells.
     ///
     /// For the wall on the right of a cell: its continuations above and below; the
     /// walls above the cell and above its neighbour; those below both; the walls on

@@ -1,18 +1,18 @@
-//! What a robot may tell the people who watch it.
+//! How a robot reports to people: log messages, colors, labels, beliefs about walls.
 //!
-//! In a match the functions call the host; a robot that uses none of them
-//! imports nothing. Natively they record into the [`testing`](crate::testing)
-//! arena while one is playing, and do nothing otherwise. No call returns
-//! anything, so the journal cannot influence a match.
+//! In a match the functions call the host. In a native match of [`testing`](crate::testing)
+//! they are recorded, and otherwise they do nothing. No call returns anything, so the journal
+//! cannot influence a match.
 //!
-//! Every call costs fuel (200, plus 1 per byte of text). Prefer fixed texts: making
-//! a text with `format!` costs more fuel than telling it.
+//! Every call costs fuel: 200, plus 1 per byte of text. Prefer fixed texts, because `format!`
+//! costs more fuel than the call itself. To report an error from which the robot cannot
+//! recover, panic.
 
 pub use crate::bindings::wasmouse::robot::journal::{Belief, Color, Level};
 use crate::{Cell, Heading};
 
 #[cfg(not(target_arch = "wasm32"))]
-use crate::testing::record;
+use crate::record;
 
 /// Writes a line of text.
 #[inline]
@@ -38,7 +38,7 @@ pub fn info(message: &str) {
     log(Level::Info, message);
 }
 
-/// Writes a line about something unexpected that the robot can live with.
+/// Writes a line about something unexpected that the robot can handle.
 pub fn warning(message: &str) {
     log(Level::Warning, message);
 }
@@ -48,7 +48,7 @@ pub fn error(message: &str) {
     log(Level::Error, message);
 }
 
-/// Paints a cell; [`Color::None`] removes the paint.
+/// Colors a cell; [`Color::None`] removes the color.
 #[inline]
 pub fn paint(cell: Cell, color: Color) {
     #[cfg(target_arch = "wasm32")]
@@ -57,8 +57,8 @@ pub fn paint(cell: Cell, color: Color) {
     record::paint(cell, color);
 }
 
-/// Writes a short text into a cell, of which at most 8 characters are shown; the
-/// empty text removes it.
+/// Writes a short text into a cell. At most 8 characters are shown; the empty text removes
+/// the label.
 #[inline]
 pub fn label(cell: Cell, text: &str) {
     #[cfg(target_arch = "wasm32")]

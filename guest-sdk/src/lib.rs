@@ -1,27 +1,29 @@
-//! Write wasmouse robots in Rust.
+//! A toolkit for writing wasmouse robots in Rust. It has no dependencies.
 //!
-//! A robot is a type that implements [`Robot`]; [`export_robot!`] makes the
-//! component's exports of it. The rest is a toolkit to use or to leave:
+//! A robot is a type that implements [`Robot`]; [`export_robot!`] exports it as a component.
+//! Everything else is optional:
 //!
 //! | to | use |
 //! |---|---|
-//! | say where the robot is | [`Cell`], [`Heading`], [`Pose`] |
+//! | represent positions | [`Cell`], [`Heading`], [`Pose`] |
 //! | remember walls | [`Map`], [`Passages`], [`CellSet`] |
-//! | keep pose, map and budget together | [`Tracker`] |
-//! | find the fewest steps | [`Search`] |
-//! | find what still has to be seen | [`Doubt`] |
-//! | find cheapest paths under costs of your own | [`AStar`] |
-//! | search as simple robots do, by counting squares | [`Expansion`] |
-//! | find the cheapest ways when walls have costs | [`WeightedSearch`], [`Grid`] |
-//! | know that the best path is found | [`Certificate`] |
-//! | roll dice | [`Random`] |
-//! | tell the people who watch something | [`journal`] |
+//! | keep track of position, walls and budget | [`Tracker`] |
+//! | find the path with the fewest steps | [`Search`] |
+//! | find the next wall worth looking at | [`Doubt`] |
+//! | prove that the best path is known | [`Certificate`] |
+//! | find the cheapest path when walls have costs | [`WeightedSearch`], [`Grid`] |
+//! | search by counting squares, as simple maze robots do | [`Expansion`] |
+//! | generate random numbers from the seed | [`Random`] |
+//! | log messages, color and label cells | [`journal`] |
 //! | test a robot natively, without WebAssembly | [`testing`] |
 //!
-//! The smallest robot that does something is in the documentation of [`Robot`];
-//! `example-robots/` in the wasmouse repository has complete ones.
+//! The documentation of [`Robot`] has a minimal example; `example-robots/` in the wasmouse
+//! repository has complete robots.
+//!
+//! All of this measures distances in cells, for tracks whose
+//! [`units_per_cell`](Briefing::units_per_cell) is 1, and needs the size and the goal of the
+//! maze. All current rulesets are such tracks.
 
-mod astar;
 #[doc(hidden)]
 pub mod bindings;
 mod certificate;
@@ -29,11 +31,14 @@ mod doubt;
 mod expansion;
 mod geometry;
 mod grid;
+mod hop;
 pub mod journal;
 mod map;
 mod passages;
 mod pose;
 mod random;
+#[cfg(not(target_arch = "wasm32"))]
+mod record;
 mod robot;
 mod search;
 #[cfg(not(target_arch = "wasm32"))]
@@ -41,7 +46,6 @@ pub mod testing;
 mod tracker;
 mod weighted;
 
-pub use astar::{AStar, Path};
 pub use bindings::wasmouse::robot::types::{
     Action, Area, Briefing, BudgetScope, Cell, Heading, Move, Sensors, Turn,
 };
@@ -50,11 +54,12 @@ pub use doubt::Doubt;
 pub use expansion::Expansion;
 pub use geometry::DIMENSION_MAX;
 pub use grid::Grid;
+pub use hop::Hop;
 pub use map::{Map, News, View, Wall};
 pub use passages::{CellSet, Passages};
 pub use pose::Pose;
 pub use random::Random;
 pub use robot::Robot;
-pub use search::{Hop, Search};
+pub use search::Search;
 pub use tracker::{Run, Tracker};
 pub use weighted::{IMPASSABLE, WeightedSearch};

@@ -1,8 +1,7 @@
 //! What a robot knows about the walls: [`Map`].
 //!
-//! Fed by readings, asked by searches. It keeps two sets of passages, the walls
-//! known to be open and the walls not known to be closed, so that a search under
-//! either assumption reads them as they are.
+//! It keeps two sets of passages, the walls known to be open and the walls not known to be
+//! closed, so that a search under either assumption needs no conversion.
 
 use crate::passages::{Place, row};
 use crate::{Cell, Heading, Passages, Pose, Sensors};
@@ -10,24 +9,24 @@ use crate::{Cell, Heading, Passages, Pose, Sensors};
 /// What is known about one wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Wall {
-    /// Nothing yet.
+    /// Not known.
     Unknown,
-    /// Nothing stands there.
+    /// There is no wall.
     Open,
-    /// A wall stands there.
+    /// There is a wall.
     Closed,
 }
 
-/// What to take unknown walls for.
+/// How to treat unknown walls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum View {
-    /// Unknown walls are open: for exploring.
+    /// Unknown walls count as open: for exploring.
     Optimistic,
-    /// Unknown walls are closed: for driving only where it is certain.
+    /// Unknown walls count as closed: for driving only where it is certain.
     Pessimistic,
 }
 
-/// How many walls a reading has taught.
+/// What was new in a reading.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct News {
     /// Walls that were not known to be open before.
@@ -38,7 +37,7 @@ pub struct News {
 
 /// The walls of a square maze, each unknown, open or closed.
 ///
-/// In the beginning the perimeter is closed and everything else unknown.
+/// At first the perimeter is closed and everything else is unknown.
 ///
 /// ```
 /// use wasmouse_sdk::{Cell, Heading, Map, Pose, Sensors, Wall};
@@ -82,7 +81,7 @@ impl Map {
         cell.x < self.dimension() && cell.y < self.dimension()
     }
 
-    /// The cell on that side, walls or not; `None` outside the maze.
+    /// The neighbouring cell on that side, ignoring walls; `None` outside the maze.
     pub fn neighbor(&self, cell: Cell, heading: Heading) -> Option<Cell> {
         cell.toward(heading, 1).filter(|&it| self.contains(it))
     }
@@ -126,15 +125,8 @@ impl Map {
         }
     }
 
-    /// Whether all four sides of `cell` are known.
-    pub fn is_known(&self, cell: Cell) -> bool {
-        Heading::ALL
-            .into_iter()
-            .all(|side| self.wall(cell, side) != Wall::Unknown)
-    }
-
-    /// What a sensor in `cell` that looks in that direction would read, in open
-    /// cells; `None` where a reading would teach something.
+    /// What a sensor in `cell` would read in that direction, in open cells; `None` if the
+    /// map does not know.
     ///
     /// ```
     /// use wasmouse_sdk::{Cell, Heading, Map, Pose, Sensors};
@@ -149,9 +141,9 @@ impl Map {
         (self.wall(end, heading) == Wall::Closed).then_some(open)
     }
 
-    /// Takes in a reading made at `pose`: in each of the three directions that
-    /// many open walls and then a closed one. Where it contradicts an older one,
-    /// the newer counts; readings that end outside the maze end at its perimeter.
+    /// Adds a reading made at `pose`: in each of the three directions that many open walls
+    /// and then a closed one. It overrides earlier readings; a reading that ends outside the
+    /// maze ends at its perimeter.
     ///
     /// # Panics
     ///
@@ -306,10 +298,5 @@ mod tests {
             map.set(Cell::new(0, 2), Heading::Left, wall);
             assert_eq!(map.wall(Cell::new(0, 2), Heading::Left), Wall::Closed);
         }
-        assert!(!map.is_known(cell));
-        for heading in Heading::ALL {
-            map.set(cell, heading, Wall::Open);
-        }
-        assert!(map.is_known(cell));
     }
 }

@@ -1,8 +1,8 @@
 //! Sets of cells ([`CellSet`]) and of open walls ([`Passages`]), one bit each.
 //!
-//! A row of the maze is one 64-bit word, so a search moves a whole row of cells
-//! with a few instructions. Both are plain values: clone a map's passages and
-//! close some of them to search around cells you do not want.
+//! A row of the maze is one 64-bit word, so a search processes a whole row of cells with a
+//! few instructions. Both are plain values: to search around some cells, clone a map's
+//! passages and close some of them.
 
 use crate::geometry::DIMENSION_MAX;
 use crate::{Area, Cell, Heading};
@@ -50,13 +50,6 @@ impl CellSet {
         self.rows[row(cell.y)] |= bit(cell.x);
     }
 
-    /// Takes a cell out; nothing happens when it is not there.
-    pub fn remove(&mut self, cell: Cell) {
-        if self.contains(cell) {
-            self.rows[row(cell.y)] &= !bit(cell.x);
-        }
-    }
-
     /// Whether the cell is in the set.
     pub const fn contains(&self, cell: Cell) -> bool {
         cell.x < DIMENSION_MAX
@@ -64,12 +57,12 @@ impl CellSet {
             && self.rows[row(cell.y)] & bit(cell.x) != 0
     }
 
-    /// Whether there are no cells in it.
+    /// Whether the set is empty.
     pub fn is_empty(&self) -> bool {
         self.rows.iter().all(|&row| row == 0)
     }
 
-    /// Takes all cells out.
+    /// Removes all cells.
     pub const fn clear(&mut self) {
         self.rows = [0; ROWS];
     }
@@ -311,9 +304,7 @@ mod tests {
         let cells = [Cell::new(63, 0), Cell::new(0, 1), Cell::new(63, 63)];
         let mut set: CellSet = cells.into_iter().collect();
         assert!(set.iter().eq(cells));
-        set.remove(Cell::new(64, 0));
-        set.remove(cells[1]);
-        assert!(!set.contains(cells[1]) && set.contains(cells[0]));
+        assert!(!set.contains(Cell::new(64, 0)) && !set.contains(Cell::new(1, 1)));
         set.clear();
         assert!(set.is_empty());
     }

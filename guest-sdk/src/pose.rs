@@ -1,6 +1,6 @@
-//! Where a robot is and which way it looks: [`Pose`].
+//! A robot's position: [`Pose`].
 //!
-//! Dead reckoning only: it knows no walls beyond the sensors it is given.
+//! Dead reckoning only: it knows no walls except from the readings that it is given.
 
 use crate::{Cell, Heading, Hop, Sensors, Turn};
 
@@ -11,16 +11,16 @@ use crate::{Cell, Heading, Hop, Sensors, Turn};
 ///
 /// let pose = Pose::at_start(Cell::new(0, 0));
 /// let sensors = Sensors { left: 0, front: 2, right: 5 };
-/// // A wall stands after two cells, so the third is not reached.
+/// // There is a wall after two cells, so the robot does not reach the third.
 /// let pose = pose.after(Turn::Straight, 3, sensors).expect("a forward move");
 /// assert_eq!(pose.cell, Cell::new(0, 2));
 /// assert_eq!(pose.heading, Heading::Up);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Pose {
-    /// The cell the robot stands in.
+    /// The robot's cell.
     pub cell: Cell,
-    /// The way it looks.
+    /// The robot's heading.
     pub heading: Heading,
 }
 
@@ -33,12 +33,11 @@ impl Pose {
         }
     }
 
-    /// The pose after a turn and a drive of `advance` cells, given the sensors
-    /// read before it. A forward move ends at the first wall, which the sensors
-    /// have seen.
+    /// The pose after a turn and a move of `advance` cells, given the readings before it. A
+    /// forward move ends at the first wall, which the sensors have seen.
     ///
-    /// `None` for a backward move: there is no rear sensor, so how far it gets is
-    /// a question for the map, see [`Pose::moved`].
+    /// `None` for a backward move: there is no rear sensor, so only a map can tell how far
+    /// it goes. See [`Pose::moved`].
     pub fn after(self, turn: Turn, advance: i8, sensors: Sensors) -> Option<Self> {
         let wish = u32::try_from(advance).ok()?;
         let open = match turn {
@@ -50,16 +49,15 @@ impl Pose {
         self.moved(turn, heading, wish.min(open))
     }
 
-    /// The pose after a hop: looking in its direction, unless that is behind, where
-    /// the robot drives backwards. `None` outside row and column 0.
+    /// The pose after a hop. The robot turns to the hop's heading, unless that is behind it;
+    /// then it drives backwards. `None` below row or column 0.
     pub fn hopped(self, hop: Hop) -> Option<Self> {
         let turn = self.heading.turn_to(hop.heading).unwrap_or(Turn::Straight);
         self.moved(turn, hop.heading, hop.cells)
     }
 
-    /// The pose after a turn and then `cells` cells in direction `travel`, which
-    /// is the new heading or, for a backward move, the opposite of it. `None`
-    /// outside row and column 0.
+    /// The pose after a turn and then `cells` cells in direction `travel`, which is the new
+    /// heading or, for a backward move, its opposite. `None` below row or column 0.
     pub fn moved(self, turn: Turn, travel: Heading, cells: u32) -> Option<Self> {
         Some(Self {
             cell: self.cell.toward(travel, cells)?,

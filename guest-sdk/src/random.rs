@@ -16,7 +16,7 @@ pub struct Random {
 }
 
 impl Random {
-    /// A generator with this seed; every seed is as good as any other.
+    /// A generator with this seed. All seeds are equally good.
     pub const fn new(seed: u64) -> Self {
         Self { state: seed }
     }
@@ -30,8 +30,8 @@ impl Random {
         bits ^ (bits >> 31)
     }
 
-    /// A number from 0 to `bound` - 1, by multiplication: for the small bounds of
-    /// a robot each is equally likely to within one in a hundred million.
+    /// A number from 0 to `bound` - 1. For small bounds all are equally likely, to within one
+    /// in a hundred million.
     ///
     /// # Panics
     ///

@@ -1,27 +1,27 @@
-//! The one trait a robot implements and the one macro that exports it.
+//! The trait that a robot implements and the macro that exports it.
 //!
-//! The macro emits the component's exports only when compiled to WebAssembly,
-//! so that a native test or benchmark can link many robots side by side.
+//! The macro emits exports only when compiled to WebAssembly, so that a native test or
+//! benchmark can link many robots.
 
 use crate::{Action, Briefing, Map, Sensors};
 
 /// A controller that drives one match.
 ///
-/// The host creates a fresh robot for every match with [`start`](Robot::start)
-/// and then asks it for one action after another. Nothing survives a match, but
-/// everything in `self` survives the reset between its two runs.
+/// The host creates a new robot forevery match with [`start`](Robot::start) and then calls
+/// [`next_move`](Robot::next_move) once per step. Nothing survives a match, but everything in
+/// `self` survives the reset between the exploration run and the speed run.
 ///
 /// ```
 /// use wasmouse_sdk::{Action, Briefing, Robot, Sensors, Turn, export_robot};
 ///
-/// /// Drives straight ahead and never arrives.
+/// /// Drives straight ahead and never reaches the goal.
 /// struct Straight {
 ///     longest_move: i8,
 /// }
 ///
 /// impl Robot for Straight {
 ///     fn start(briefing: &Briefing) -> Self {
-///         assert!(briefing.setting == 0, "this robot has no settings");
+///         assert!(briefing.variant == 0, "this robot has only variant 0");
 ///         let longest_move = i8::try_from(briefing.longest_move).unwrap_or(i8::MAX);
 ///         Self { longest_move }
 ///     }
@@ -38,16 +38,16 @@ pub trait Robot: Sized + 'static {
     ///
     /// # Panics
     ///
-    /// A robot should panic on a setting it does not have, and may panic when it
-    /// cannot take part; the match then ends with a fault in step 0.
+    /// A robot should panic on a variant that it does not have, and may panic if it cannot
+    /// take part. The match then ends with the fault `panic` in step 0.
     fn start(briefing: &Briefing) -> Self;
 
-    /// Answers the readings at the current cell and heading. Called once a step.
+    /// Returns the action for the readings at the current position. Called once per step.
     fn next_move(&mut self, sensors: Sensors) -> Action;
 
-    /// What the robot knows about the walls, for tests: a native match holds it
-    /// against the maze after every answer (`testing::MapAudit`). No part of the
-    /// component. `None` by default, of a robot without a map or that shows none.
+    /// What the robot knows about the walls, for tests: a native match compares it with the
+    /// maze after every step (`testing::MapAudit`). Not part of the component. `None` by
+    /// default, for robots that have no map.
     fn map(&self) -> Option<&Map> {
         None
     }
@@ -55,10 +55,11 @@ pub trait Robot: Sized + 'static {
 
 /// Exports a type that implements [`Robot`] as a component.
 ///
-/// Use it once in a crate of type `cdylib`. On targets other than `wasm32` it
-/// only checks that the type is a [`Robot`].
+/// Use it once in a crate of type `cdylib`. On targets other than `wasm32` it only checks
+/// that the type is a [`Robot`].
 ///
-/// Of the functions it exports, `next-move` traps when it is called before `start`.
+/// A panic of the robot ends the match with the fault `panic`, with a message of the form
+/// `MESSAGE (FILE:LINE:COLUMN)`. `next-move` panics if it is called before `start`.
 #[macro_export]
 macro_rules! export_robot {
     ($robot:ty) => {
@@ -87,6 +88,12 @@ macro_rules! export_robot {
             }
 
     $crate::bindings::export!(Controller with_types_in $crate::bindings);
+
+            // Called once, while the component is instantiated.
+            #[unsafe(export_name = "_initialize")]
+            extern "C" fn initialize() {
+                $crate::bindings::report_panics();
+            }
         };
 
         #[cfg(not(target_arch = "wasm32"))]

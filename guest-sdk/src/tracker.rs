@@ -1,27 +1,27 @@
-//! A robot's memory of a match: [`Tracker`] joins pose, map and rules.
+//! The state of a match as a robot knows it: [`Tracker`].
 //!
-//! It decides nothing; it keeps the books. Robots ask it what they know, and
-//! answer with the actions it makes, so that what it believes stays true.
+//! It combines position, map, run and budget, and decides nothing. It stays correct as long
+//! as the robot returns only actions that the tracker creates.
 
 use crate::{
     Action, Briefing, BudgetScope, Cell, CellSet, Heading, Map, News, Pose, Search, Sensors, Turn,
     View,
 };
 
-/// Which of the two runs is on.
+/// One of the two runs of a match.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Run {
-    /// Run 1: find the goal, learn the maze, reset.
+    /// The exploration run: find the goal, learn the maze, reset.
     Exploration,
-    /// Run 2: to the goal in few steps.
+    /// The speed run: to the goal in as few steps as possible.
     Speed,
 }
 
-/// Where the robot is, what it has seen, and how many steps are left.
+/// The robot's position, the walls that it has seen, and the steps that are left.
 ///
-/// Once a step: [`observe`](Self::observe) the sensors, then answer with what
-/// [`go`](Self::go) or [`reset`](Self::reset) return. Drives are cut to what is
-/// known to be open, so a tracked robot never bumps and always knows its pose.
+/// In each step, pass the readings to [`observe`](Self::observe) and return the action from
+/// [`go`](Self::go), [`turn`](Self::turn) or [`reset`](Self::reset). Moves are limited to
+/// what is known to be open, so the robot never bumps and always knows its position.
 ///
 /// ```
 /// use wasmouse_sdk::{Action, Briefing, Cell, Heading, Sensors, Tracker, Turn};
@@ -40,18 +40,17 @@ pub struct Tracker {
     pose: Pose,
     map: Map,
     run: Run,
-    /// Whether a step of run 1 has ended in the goal.
+    /// Whether a step of the exploration run has ended in the goal.
     goal_seen: bool,
     steps_left: u32,
 }
 
 impl Tracker {
-    /// At the start of run 1, with an empty map.
+    /// The state at the start of the exploration run, with an empty map.
     ///
     /// # Panics
     ///
-    /// When the dimension of the briefing is outside 2..=64 or the start is
-    /// outside the maze.
+    /// If the dimension of the briefing is outside 2..=64 or the start is outside the maze.
     pub fn new(briefing: &Briefing) -> Self {
         let map = Map::new(briefing.dimension);
         assert!(
@@ -68,17 +67,17 @@ impl Tracker {
         }
     }
 
-    /// Enters the readings of this step into the map.
+    /// Adds the readings of this step to the map.
     pub fn observe(&mut self, sensors: Sensors) -> News {
         self.map.observe(self.pose, sensors)
     }
 
-    /// The step that drives up to `cells` cells in that direction of the maze, no
-    /// further than is known to be open and than one step can.
+    /// The action that drives up to `cells` cells in that direction of the maze, limited to
+    /// cells known to be reachable and to the longest move.
     ///
-    /// Turns where the direction is at a side, drives backwards where it is
-    /// behind. Behind the robot there is no sensor: when the nearest wall there is
-    /// unknown, it turns right on the spot instead, to see it in the next step.
+    /// It turns if the direction is to a side, and drives backwards if it is behind the
+    /// robot. There is no rear sensor: if the nearest wall behind is unknown, the action
+    /// turns right on the spot instead, to see it in the next step.
     pub fn go(&mut self, heading: Heading, cells: u32) -> Action {
         let cells = cells.min(self.briefing.longest_move).min(i8::MAX as u32);
         let known = self.map.passages(View::Pessimistic);
@@ -93,13 +92,13 @@ impl Tracker {
         }
     }
 
-    /// The step that only turns.
+    /// The action that only turns.
     pub fn turn(&mut self, turn: Turn) -> Action {
         self.answer(turn, self.pose.heading, 0)
     }
 
-    /// The reset: on to run 2, at the start. Where it would be refused (see
-    /// [`may_reset`](Self::may_reset)) the pose stays and the step is lost.
+    /// The reset, which begins the speed run in the start cell. Where the host ignores it (see
+    /// [`may_reset`](Self::may_reset)) the position stays and the step is spent.
     pub fn reset(&mut self) -> Action {
         self.steps_left = self.steps_left.saturating_sub(1);
         if self.may_reset() {
@@ -112,23 +111,23 @@ impl Tracker {
         Action::Reset
     }
 
-    /// Whether a reset would be accepted: in run 1, once a step has ended in the
-    /// goal.
+    /// Whether the host accepts a reset: in the exploration run, after a step has ended in
+    /// the goal.
     pub fn may_reset(&self) -> bool {
         self.run == Run::Exploration && self.goal_seen
     }
 
-    /// Whether the robot stands in the goal.
+    /// Whether the robot is in the goal.
     pub const fn in_goal(&self) -> bool {
         self.briefing.goal.contains(self.pose.cell)
     }
 
-    /// Where the robot is.
+    /// The robot's position.
     pub const fn pose(&self) -> Pose {
         self.pose
     }
 
-    /// Where the robot is, without its heading.
+    /// The robot's cell.
     pub const fn cell(&self) -> Cell {
         self.pose.cell
     }
@@ -138,24 +137,24 @@ impl Tracker {
         &self.map
     }
 
-    /// Which run is on.
+    /// The current run.
     pub const fn run(&self) -> Run {
         self.run
     }
 
-    /// What the robot was told before the match.
+    /// The briefing of the match.
     pub const fn briefing(&self) -> &Briefing {
         &self.briefing
     }
 
-    /// How many steps may still be answered, this one included; where each run
-    /// has its own budget, those of this run.
+    /// How many steps are left, including this one. If each run has its own budget, that of
+    /// the current run.
     pub const fn steps_left(&self) -> u32 {
         self.steps_left
     }
 
-    /// Whether the budget allows `exploration` more steps of run 1, then the
-    /// reset, then `speed` steps of run 2.
+    /// Whether the budget allows `exploration` more steps of the exploration run, then the
+    /// reset, then `speed` steps of the speed run.
     pub fn can_afford(&self, exploration: u32, speed: u32) -> bool {
         let here = exploration.saturating_add(1);
         match self.briefing.budget_scope {
@@ -164,13 +163,13 @@ impl Tracker {
         }
     }
 
-    /// Whether the budget allows `exploration` more steps of run 1, then the reset,
-    /// then a race over the fewest steps through walls known to be open; `false`
-    /// while no such way from the start to the goal is known.
+    /// Whether the budget allows `exploration` more steps of the exploration run, then the
+    /// reset, then a speed run with the fewest steps through walls known to be open. `false`
+    /// if no such path from the start to the goal is known.
     ///
-    /// A robot that resets as soon as this is `false` for one more step, once
-    /// [`may_reset`](Self::may_reset) allows it, can always finish. `search` is only
-    /// used, and then filled anew, when the budget is short of one step per cell.
+    /// A robot that resets as soon as this is `false` for one more step, and
+    /// [`may_reset`](Self::may_reset) allows it, can always finish. Refills `search` only if
+    /// the budget is less than one step per cell.
     ///
     /// ```
     /// use wasmouse_sdk::{Area, Briefing, Cell, Search, Sensors, Tracker};
@@ -184,14 +183,14 @@ impl Tracker {
     /// let mut tracker = Tracker::new(&briefing);
     /// assert!(!tracker.can_afford_race(1, &mut search));
     /// tracker.observe(Sensors { left: 0, front: 5, right: 0 });
-    /// // 2 steps in run 2, 1 for the reset.
+    /// // 2 steps in the speed run, 1 for the reset.
     /// assert!(tracker.can_afford_race(7, &mut search));
     /// assert!(!tracker.can_afford_race(8, &mut search));
     /// ```
     pub fn can_afford_race(&self, exploration: u32, search: &mut Search) -> bool {
         let cells = self.briefing.dimension.pow(2);
         if self.goal_seen && self.can_afford(exploration, cells) {
-            // No race is longer than that, so there is no need to search.
+            // No speed run is longer than that, so there is no need to search.
             return true;
         }
         let start = self.briefing.start;
@@ -207,6 +206,8 @@ impl Tracker {
         possible.is_open(self.pose.cell, heading)
     }
 
+    // Every step ends here; a call would add to its fuel.
+    #[inline]
     fn answer(&mut self, turn: Turn, travel: Heading, advance: i8) -> Action {
         let cells = u32::from(advance.unsigned_abs());
         self.pose = self

@@ -1,11 +1,10 @@
-//! Cheapest ways to the goal when walls have costs: [`WeightedSearch`].
+//! Cheapest paths to the goal when walls have costs: [`WeightedSearch`].
 //!
-//! Between [`Search`](crate::Search), which counts steps, and
-//! [`AStar`](crate::AStar), which asks for the cost of every hop: here a step has a
-//! fixed price and every wall on its way adds one of its own, for instance for the
-//! chance that it stands. One search answers for all cells. Costs are small whole
-//! numbers, so cells wait in buckets instead of a heap (Dial, *Algorithm 360:
-//! Shortest-Path Forest with Topological Ordering*, 1969).
+//! Where [`Search`](crate::Search) counts steps, here a step has a fixed cost and every
+//! wall that it crosses adds one of its own, for instance for the chance that it is
+//! closed. One search answers for all cells. Costs are small whole numbers, so cells wait
+//! in buckets instead of a heap (Dial, *Algorithm 360: Shortest-Path Forest with
+//! Topological Ordering*, 1969).
 
 use crate::{Grid, Heading, Hop};
 
@@ -39,7 +38,7 @@ pub struct WeightedSearch {
     step_cost: u16,
     cost: Vec<u32>,
     hop: Vec<Hop>,
-    /// The cells to go on from, by their cost modulo the number of buckets.
+    /// The cells to expand next, by their cost modulo the number of buckets.
     buckets: Vec<Vec<u16>>,
     waiting: usize,
 }
@@ -72,7 +71,7 @@ impl WeightedSearch {
     }
 
     /// Computes the cost from every cell to the nearest of `targets`. `costs` has a
-    /// value for every wall of the grid, [`IMPASSABLE`] at least for the perimeter.
+    /// value forevery wall of the grid, [`IMPASSABLE`] at least for the perimeter.
     ///
     /// With `until`, ends when the cost of that cell is known; cells that are dearer
     /// may then have a cost that is too high, or none.
@@ -92,7 +91,7 @@ impl WeightedSearch {
             while let Some(cell) = self.buckets[bucket].pop() {
                 self.waiting -= 1;
                 let cell = usize::from(cell);
-                // A cheaper way to this cell has been found since.
+                // A cheaper path to this cell has been found since.
                 if self.cost[cell] != now {
                     continue;
                 }
@@ -105,22 +104,22 @@ impl WeightedSearch {
         }
     }
 
-    /// The cost from a cell to the nearest target; `None` when there is no way.
+    /// The cost from a cell to the nearest target; `None` when there is no path.
     #[inline]
     pub fn cost(&self, cell: usize) -> Option<u32> {
         let cost = self.cost[cell];
         (cost != NOT_REACHED).then_some(cost)
     }
 
-    /// The first hop of a cheapest way from a cell; `None` in a target and where
-    /// there is no way.
+    /// The first hop of a cheapest path from a cell; `None` in a target and where
+    /// there is no path.
     #[inline]
     pub fn hop(&self, cell: usize) -> Option<Hop> {
         let hop = self.hop[cell];
         (self.cost[cell] != NOT_REACHED && hop.cells > 0).then_some(hop)
     }
 
-    /// A cheapest way from a cell, hop after hop, each with the cell it starts from.
+    /// A cheapest path from a cell, hop by hop, each with the cell where it starts.
     pub fn way(&self, from: usize) -> impl Iterator<Item = (usize, Hop)> {
         let mut cell = from;
         std::iter::from_fn(move || {
@@ -155,7 +154,7 @@ impl WeightedSearch {
         cost as usize & (self.buckets.len() - 1)
     }
 
-    /// Offers a way to every cell that is one hop away.
+    /// Offers a path to every cell that is one hop away.
     fn spread(&mut self, costs: &[u16], cell: usize, cost: u32) {
         for heading in Heading::ALL {
             let mut there = cell;
@@ -187,61 +186,102 @@ impl WeightedSearch {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Cell;
     use crate::random::Random;
-    use crate::{AStar, Cell, CellSet, Passages};
 
-    /// Against A* with the same costs, and again with the same buffers.
+    const STEP_COST: u16 = 20;
+
+    /// Against repeated relaxation, and again with the same buffers.
     #[test]
-    fn agrees_with_a_star() {
+    fn costs_are_the_least() {
         let mut random = Random::new(5);
         for dimension in [2, 7, 12, 64] {
             let grid = Grid::new(dimension);
-            let mut search = WeightedSearch::new(grid, 3, 20);
-            let mut astar = AStar::new(dimension, 3);
+            let mut search = WeightedSearch::new(grid, 3, STEP_COST);
             for round in 0..12 {
-                let (passages, costs) = random_costs(grid, &mut random);
-                let target = Cell::new(random.below(dimension), random.below(dimension));
-                let from = Cell::new(random.below(dimension), random.below(dimension));
-                let until = (round % 2 == 0).then_some(grid.cell(from));
-                search.run(&costs, &[grid.cell(target)], until);
-                let price = |cell: Cell, hop: Hop| Some(hop_cost(grid, &costs, cell, hop));
-                let targets = CellSet::from(target);
-                let path = astar.path(&passages, from, &targets, price, |_| 0);
-                let expected = path.map(|it| it.cost);
-                assert_eq!(search.cost(grid.cell(from)), expected);
-                if expected.is_some() {
-                    let way: Vec<_> = search.way(grid.cell(from)).collect();
-                    let cost = |&(at, hop): &(usize, Hop)| hop_cost(grid, &costs, grid.at(at), hop);
-                    assert_eq!(way.iter().map(cost).sum::<u32>(), expected.unwrap_or(0));
+                let costs = random_costs(grid, &mut random);
+                let mut cell =
+                    || grid.cell(Cell::new(random.below(dimension), random.below(dimension)));
+                let (target, from) = (cell(), cell());
+                let until = (round % 2 == 0).then_some(from);
+                search.run(&costs, &[target], until);
+                let expected = least_costs(grid, &costs, target)[from];
+                assert_eq!(search.cost(from), expected);
+                if let Some(expected) = expected {
+                    let mut end = from;
+                    let mut sum = 0;
+                    for (at, hop) in search.way(from) {
+                        assert_eq!(at, end);
+                        let cost;
+                        (end, cost) = after(grid, &costs, at, hop).expect("no wall is in its way");
+                        sum += cost;
+                    }
+                    assert_eq!((end, sum), (target, expected));
                 }
             }
         }
     }
 
-    fn random_costs(grid: Grid, random: &mut Random) -> (Passages, Vec<u16>) {
-        let mut passages = Passages::all_open(grid.dimension());
+    fn random_costs(grid: Grid, random: &mut Random) -> Vec<u16> {
         let mut costs = vec![IMPASSABLE; grid.wall_count()];
         for wall in grid.inner_walls() {
-            let [first, second] = grid.sides(wall);
-            let up = second != first + 1;
-            let heading = if up { Heading::Up } else { Heading::Right };
             match random.below(4) {
-                0 => passages.close(grid.at(first), heading),
+                0 => {}
                 1 => costs[wall] = random.below(300) as u16,
                 _ => costs[wall] = 0,
             }
         }
-        (passages, costs)
+        costs
     }
 
-    fn hop_cost(grid: Grid, costs: &[u16], from: Cell, hop: Hop) -> u32 {
-        let mut cell = grid.cell(from);
-        let mut sum = 20;
+    /// Where a hop ends and what it costs; `None` when a wall is in its way.
+    fn after(grid: Grid, costs: &[u16], from: usize, hop: Hop) -> Option<(usize, u32)> {
+        let mut cell = from;
+        let mut sum = u32::from(STEP_COST);
         for _ in 0..hop.cells {
-            sum += u32::from(costs[grid.wall(cell, hop.heading)]);
+            let cost = costs[grid.wall(cell, hop.heading)];
+            if cost == IMPASSABLE {
+                return None;
+            }
+            sum += u32::from(cost);
             cell = grid.beyond(cell, hop.heading);
         }
-        sum
+        Some((cell, sum))
+    }
+
+    /// The least cost from every cell to the target, improved until nothing changes.
+    fn least_costs(grid: Grid, costs: &[u16], target: usize) -> Vec<Option<u32>> {
+        let side = 0..grid.dimension();
+        let cells = side
+            .clone()
+            .flat_map(|y| side.clone().map(move |x| Cell::new(x, y)));
+        let hops: Vec<(usize, usize, u32)> = cells
+            .map(|cell| grid.cell(cell))
+            .flat_map(|from| {
+                let hops = Heading::ALL
+                    .into_iter()
+                    .flat_map(|heading| (1..=3).map(move |cells| Hop { heading, cells }));
+                hops.filter_map(move |hop| {
+                    let (to, cost) = after(grid, costs, from, hop)?;
+                    Some((from, to, cost))
+                })
+            })
+            .collect();
+        let mut least = vec![None; grid.cell_count()];
+        least[target] = Some(0);
+        loop {
+            let mut has_changed = false;
+            for &(from, to, cost) in &hops {
+                let Some(rest) = least[to] else { continue };
+                if least[from].is_none_or(|known: u32| known > rest + cost) {
+                    least[from] = Some(rest + cost);
+                    has_changed = true;
+                }
+            }
+            if !has_changed {
+                return least;
+            }
+        }
     }
 
     #[test]

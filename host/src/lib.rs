@@ -4,6 +4,6 @@
 //! into text, and [`cli`] is the command line. The rules of the game are in [`wasmouse_core`],
 //! everything about WebAssembly is in [`wasmouse_engine`].
 
+pub mod cli;
 pub mod contest;
-// pub mod report;
-// pub mod cli;
+pub mod report;

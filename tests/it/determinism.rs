@@ -10,12 +10,12 @@ use wasmouse::robot::bundled::bundled;
 use crate::binary::{stdout_of, wasmouse};
 use crate::shared::shared;
 
-/// Every bundled robot, with each of its settings.
+/// Every bundled robot, with each of its variants.
 fn robots() -> Vec<String> {
     let specifications = bundled().iter().flat_map(|robot| {
-        let settings = robot.settings.iter();
-        let chosen = settings.map(|setting| format!("{}:{}", robot.name, setting.value));
-        let plain = robot.settings.is_empty().then(|| robot.name.to_owned());
+        let variants = robot.variants.iter();
+        let chosen = variants.map(|variant| format!("{}:{}", robot.name, variant.value));
+        let plain = robot.variants.is_empty().then(|| robot.name.to_owned());
         plain.into_iter().chain(chosen)
     });
     specifications.collect()

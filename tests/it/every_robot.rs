@@ -86,7 +86,7 @@ fn natively_robots_play_the_match_of_their_component() {
                 // The simulation, fed with the native actions, agrees with every native reading
                 // and gives the same trace.
                 let options = PlayOptions {
-                    setting: variant,
+                    variant,
                     ..sdk_arena::options(&rules.game, 1)
                 };
                 let here = native(text, &options);
@@ -149,7 +149,7 @@ fn no_map_contradicts_the_maze() {
         for (variant, name) in variants(robot) {
             for (maze_name, text, _) in &mazes {
                 let place = format!("{}:{name} in {maze_name}", robot.name);
-                let played = native(text, &PlayOptions::of_setting(variant));
+                let played = native(text, &PlayOptions::of_variant(variant));
                 if WITHOUT_MAP.contains(&robot.name) {
                     assert_eq!(played.map, None, "{place}: strike it off `WITHOUT_MAP`");
                     break;

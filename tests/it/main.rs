@@ -13,6 +13,8 @@ mod champion;
 // mod cli;
 /// The rules: recorded matches and matches written by hand.
 mod conformance;
+/// The core: few dependencies, and compiled for WebAssembly.
+mod core_crate;
 /// The hostile corpus, in this process.
 mod corpus;
 // mod determinism;
@@ -41,7 +43,7 @@ mod prebuilt;
 /// The check before compilation: limits, bombs, proposals.
 mod precheck;
 // mod readme;
-/// Files that are rejected because of the limits.
+/// Rejections that depend on the limits or the version.
 mod rejections;
 /// The example robots, natively, in mazes of every size and shape.
 mod robots_native;
@@ -55,10 +57,12 @@ mod shared;
 mod solver;
 // mod streams;
 // mod study;
-/// Verdicts that depend on the limits.
+/// Verdicts that depend on the limits, and panics.
 mod verdicts;
 // mod verify;
-/// The hash of the WIT beside its history.
+/// The WIT against its history, and the SDK's bindings against the WIT.
 mod wit;
+/// A robot written with `wit-bindgen` alone.
+mod without_sdk;
 /// Robots in worker processes: the same results, whatever happens to the workers.
 mod workers;

@@ -1,4 +1,4 @@
-//! Minnett's robot in generated mazes: it always finishes, whatever the setting, and
+//! Minnett's robot in generated mazes: it always finishes, whatever the variant, and
 //! a reset for a proven path means the optimum of the host's solver.
 
 use robot_minnett::Minnett;
@@ -16,10 +16,10 @@ fn for_each_maze(seeds: &str, mut check: impl FnMut(&str, &Maze)) {
     }
 }
 
-fn play(maze: &Maze, setting: u32) -> Played {
+fn play(maze: &Maze, variant: u32) -> Played {
     let text = format::print(maze, Format::Udacity).expect("a contest maze");
     let options = PlayOptions {
-        setting,
+        variant,
         ..PlayOptions::default()
     };
     testing::play::<Minnett>(&text, &options)
@@ -29,28 +29,28 @@ fn play(maze: &Maze, setting: u32) -> Played {
 #[test]
 fn finishes_every_kind_of_maze() {
     for_each_maze("1..=3", |name, maze| {
-        for setting in 0..5 {
-            let played = play(maze, setting);
+        for variant in 0..5 {
+            let played = play(maze, variant);
             let summary = played.summary();
-            assert!(played.finished, "{setting} in {name}: {summary}");
+            assert!(played.finished, "{variant} in {name}: {summary}");
             assert_eq!((played.bumps, played.resets_before_goal), (0, 0));
         }
     });
 }
 
-/// Settings with right path costs race along the optimum, unless the budget ended
+/// Variants with right path costs race along the optimum, unless the budget ended
 /// the exploration.
 #[test]
 fn a_proven_path_is_the_optimum() {
     let mut proven = 0;
     for_each_maze("101..=104", |name, maze| {
         let optimum = shortest_path(maze, Metric::STEPS).expect("solvable");
-        for setting in [0, 3, 4] {
-            let played = play(maze, setting);
+        for variant in [0, 3, 4] {
+            let played = play(maze, variant);
             let used = played.exploration_steps + played.speed_steps;
             // Otherwise it may have reset because the budget was short.
             if used < 990 {
-                assert_eq!(played.speed_steps, optimum.steps(), "{setting} in {name}");
+                assert_eq!(played.speed_steps, optimum.steps(), "{variant} in {name}");
                 proven += 1;
             }
         }

@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use wasmouse_core::game::SandboxLimits;
-use wasmouse_engine::bundled::bundled;
-use wasmouse_engine::{Limits, Recording, Runtime};
+use wasmouse_core::game::{FaultKind, Phase, SandboxLimits};
+use wasmouse_engine::bundled::{bundled, find};
+use wasmouse_engine::{Executor as _, Frame, InProcess, Limits, Recording, Runtime};
 use xtask::manifest::Manifest;
 use xtask::verify::BUILT_ROBOTS_VARIABLE;
 use xtask::{repository, robots};
@@ -38,7 +38,7 @@ fn the_host_embeds_what_the_manifest_lists() {
             .map(|it| (it.value, it.name, it.description))
             .collect();
         let expected: Vec<_> = listed
-            .settings
+            .variants
             .iter()
             .map(|it| (it.value, it.name.as_str(), it.description.as_str()))
             .collect();
@@ -74,4 +74,63 @@ fn robots_built_from_source_play_the_same_matches() {
             }
         }
     }
+}
+
+/// A variant that no bundled robot has.
+const NO_VARIANT: u32 = 1000;
+
+/// A panic of a Rust robot reaches the verdict with its message and place, through the hook
+/// that `export_robot!` installs while the component is instantiated.
+#[test]
+fn a_panic_says_what_and_where() {
+    let (executor, rules) = (executor(), rules(SandboxLimits::default()));
+    let (_, maze) = &bundled_mazes()[0];
+    for robot in bundled() {
+        let admitted = executor.admit(robot.component).expect("the host works");
+        let admitted = admitted.expect("a bundled robot");
+        let spec = spec(&rules, admitted.digest(), maze, (NO_VARIANT, 0));
+        let played = executor.execute_with_details(&admitted, &spec);
+        let verdict = played.expect("the host works").record.verdict;
+        let fault = verdict.fault().expect("a panic");
+        let found = (fault.kind, fault.phase, fault.step);
+        assert_eq!(found, (FaultKind::Panic, Phase::Start, 0), "{}", robot.name);
+        let source = format!("(example-robots/{}/src/lib.rs:", robot.name);
+        let detail = &fault.detail;
+        assert!(detail.starts_with("panicked: "), "{detail}");
+        assert!(detail.contains("variant"), "{detail}");
+        assert!(
+            detail.contains(&source) && detail.ends_with(')'),
+            "{detail}"
+        );
+    }
+}
+
+/// The backtrace of a panic shows the robot's functions and not those that report it.
+#[test]
+fn a_backtrace_hides_the_runtime() {
+    let (executor, rules) = (executor(), rules(SandboxLimits::default()));
+    let (_, maze) = &bundled_mazes()[0];
+    let file = find("flood").expect("a bundled robot").component;
+    let robot = executor.admit(file).expect("the host works");
+    let robot = robot.expect("a bundled robot");
+    let spec = spec(&rules, robot.digest(), maze, (NO_VARIANT, 0));
+    let played = executor.execute_with_details(&robot, &spec);
+    let verdict = played.expect("the host works").record.verdict;
+    let fault = verdict.fault().expect("a panic");
+    let frames = executor.backtrace(&robot, file, &spec, fault);
+    let frames = frames.expect("the host works").expect("the same fault");
+    let of_robot = Frame::of_robot(&frames);
+    assert!(of_robot.len() < frames.len(), "{frames:?}");
+    let functions: Vec<&str> = of_robot.iter().map(|it| it.function.as_str()).collect();
+    assert!(functions[0].starts_with("<robot_flood::"), "{functions:?}");
+    for hidden in ["panicking", "rust_", "function 0", "report_panics"] {
+        assert!(
+            !functions.iter().any(|it| it.contains(hidden)),
+            "{functions:?}"
+        );
+    }
+}
+
+fn executor() -> InProcess {
+    InProcess::new(Limits::default(), 1, None).expect("address space for one match")
 }

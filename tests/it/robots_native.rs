@@ -20,7 +20,7 @@ use wasmouse_sdk::{Area, BudgetScope, Cell, Random, Robot};
 use crate::matches::{KINDS, bundled_mazes, generated_mazes};
 
 /// Flood, depth-first search, Lobato's robots and Rai's planner finish every legal
-/// maze within the budget, in each of their settings.
+/// maze within the budget, in each of their variants.
 #[test]
 fn finish_legal_mazes() {
     for kind in KINDS {
@@ -34,17 +34,17 @@ fn finish_legal_mazes() {
     }
 }
 
-/// Requires the robot to finish in each of that many settings.
-fn finishes<R: Robot>(settings: u32, maze: &str, text: &str) {
-    for setting in 0..settings {
+/// Requires the robot to finish in each of that many variants.
+fn finishes<R: Robot>(variants: u32, maze: &str, text: &str) {
+    for variant in 0..variants {
         let options = PlayOptions {
-            setting,
+            variant,
             ..PlayOptions::default()
         };
         let played = play::<R>(text, &options);
         let robot = std::any::type_name::<R>();
         let summary = played.summary();
-        assert!(played.finished, "{robot} {setting} in {maze}: {summary}");
+        assert!(played.finished, "{robot} {variant} in {maze}: {summary}");
     }
 }
 
@@ -58,9 +58,9 @@ fn the_swing_finds_the_path_that_a_star_alone_does_not() {
     let (_, maze) = detour.expect("a bundled maze");
     let text = format::print(maze, Format::Udacity).expect("a contest maze");
     let best = maze::shortest_path(maze, maze::Metric::STEPS).expect("a path");
-    let found = [0, 1, 2, 3, 4].map(|setting| {
+    let found = [0, 1, 2, 3, 4].map(|variant| {
         let options = PlayOptions {
-            setting,
+            variant,
             ..PlayOptions::default()
         };
         let played = play::<Lobato>(&text, &options);
@@ -95,17 +95,17 @@ fn survive_any_maze() {
         let mut options = any_options(dimension, &mut random);
         finished += u32::from(play::<Flood>(&text, &options).finished);
         play::<WallFollower>(&text, &options);
-        options.setting = round % 3;
+        options.variant = round % 3;
         play::<DepthFirst>(&text, &options);
-        options.setting = round % 5;
+        options.variant = round % 5;
         finished += u32::from(play::<Lobato>(&text, &options).finished);
         play::<Rai>(&text, &options);
-        options.setting = 0;
+        options.variant = 0;
         play::<RandomWalk>(&text, &options);
         play::<CountExpansion>(&text, &options);
         if round % 7 == 0 {
             // Thorough and slow.
-            options.setting = random.below(5);
+            options.variant = random.below(5);
             play::<Minnett>(&text, &options);
         }
     }
@@ -122,7 +122,7 @@ fn the_champion_survives_any_maze() {
         let share = random.below(60);
         let text = any_walls(dimension, share, &mut random);
         let options = PlayOptions {
-            setting: u32::from(round % 4 == 3),
+            variant: u32::from(round % 4 == 3),
             ..any_options(dimension, &mut random)
         };
         finished += u32::from(play::<Champion>(&text, &options).finished);
@@ -175,7 +175,7 @@ fn any_options(dimension: u32, random: &mut Random) -> PlayOptions {
     let scopes = [BudgetScope::BothRuns, BudgetScope::EachRun];
     PlayOptions {
         seed: random.next_u64(),
-        setting: random.below(2),
+        variant: random.below(2),
         budget: [1, 2, 10, 100, 400][random.below(5) as usize],
         budget_scope: scopes[random.below(2) as usize],
         longest_move: [1, 2, 3, 3, 7, 127][random.below(6) as usize],

@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use wasmouse_core::game::Verdict;
+use wasmouse_core::game::{SandboxLimits, Verdict};
 use wasmouse_tests::binary::{Ran, ran, wasmouse};
 
 use crate::hostile::{Engine, IMPORT_LOG, Module, SMALL, wasm};
@@ -106,6 +106,91 @@ fn a_memory_may_fail_to_grow() {
         },
         "budget used up",
     );
+}
+
+const IMPORT_PANIC: &str = r#"(import "wasmouse:robot/journal@VERSION" "panic"
+    (func $panic (param i32 i32)))"#;
+
+#[test]
+fn a_panic_ends_the_match_with_its_message() {
+    let panicking = Module {
+        imports: IMPORT_PANIC,
+        rest: r#"(data (i32.const 100) "the map is \"wrong\"\0a")"#,
+        ..Module::default()
+    };
+    const PANIC: &str = "(call $panic (i32.const 100) (i32.const 19))";
+    let place = "in step 1 (exploration run, at (0, 0))";
+    check(
+        Module {
+            // It does not return, so the robot does not get to its `unreachable`.
+            next: &format!("{PANIC} unreachable"),
+            ..panicking
+        },
+        &format!("panic: panicked: the map is \"wrong\"\n {place}"),
+    );
+    check(
+        Module {
+            start: PANIC,
+            ..panicking
+        },
+        "panic: panicked: the map is \"wrong\"\n in `start`",
+    );
+    check(
+        Module {
+            next: "(call $panic (i32.const 0) (i32.const 0)) unreachable",
+            ..panicking
+        },
+        &format!("panic: panicked:  {place}"),
+    );
+    check(
+        Module {
+            next: "(i32.store8 (i32.const 100) (i32.const 255))
+                (call $panic (i32.const 100) (i32.const 1)) unreachable",
+            ..panicking
+        },
+        &format!(
+            "invalid-action: violated the interface: invalid utf-8 sequence of 1 bytes from \
+             index 0 {place}"
+        ),
+    );
+}
+
+#[test]
+fn a_long_panic_is_cut_between_characters_and_costs_fuel() {
+    // One byte, then characters of two bytes: byte 2,000 is in the middle of one.
+    let fill = "(i32.store8 (i32.const 100) (i32.const 0x61))
+        (local.set 0 (i32.const 101))
+        (loop $more
+            (i32.store16 (local.get 0) (i32.const 0xa9c3))
+            (br_if $more (i32.lt_u
+                (local.tee 0 (i32.add (local.get 0) (i32.const 2))) (i32.const 3100))))";
+    let panicking = |bytes: u32| {
+        format!("{fill} (call $panic (i32.const 100) (i32.const {bytes})) unreachable")
+    };
+    let played = |next: &str, change: fn(&mut SandboxLimits, u64), value: u64| {
+        let robot = Module {
+            imports: IMPORT_PANIC,
+            next,
+            ..Module::default()
+        };
+        let mut limits = SMALL;
+        change(&mut limits.sandbox, value);
+        let record = Engine::new(limits).play(&robot.component()).record;
+        assert_eq!((record.journal.entries, record.journal.dropped), (0, 0));
+        let fault = record.verdict.fault().expect("a fault").clone();
+        (fault.kind.name(), fault.detail, record.fuel.steps)
+    };
+    // The message does not have to fit the journal.
+    let journal = |limits: &mut SandboxLimits, max| limits.journal_bytes_max = max;
+    let (kind, detail, short_fuel) = played(&panicking(2001), journal, 0);
+    assert_eq!((kind, detail.len()), ("panic", "panicked: ".len() + 1999));
+    assert!(detail.starts_with("panicked: aé") && detail.ends_with('é'));
+    let (_, long_detail, long_fuel) = played(&panicking(2901), journal, 0);
+    assert_eq!(long_detail, detail);
+    assert_eq!(long_fuel - short_fuel, 900);
+    let step_fuel = |limits: &mut SandboxLimits, max| limits.step_fuel_max = max;
+    let (kind, _, _) = played(&panicking(2901), step_fuel, long_fuel - 1);
+    assert_eq!(kind, "out-of-step-fuel");
 }
 
 #[test]

@@ -128,7 +128,7 @@ fn verify(folder: &Path, text: &str, options: &[&str]) -> (i32, String) {
     let output = child.wait_with_output().expect("the program ends");
     let told = [output.stdout, output.stderr].concat();
     let told = String::from_utf8(told).expect("programs print text");
-    assert!(!told.contains("panicked"), "{told}");
+    assert!(!told.contains("panicked at"), "{told}");
     (output.status.code().expect("no signal ended it"), told)
 }
 

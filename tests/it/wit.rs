@@ -1,6 +1,9 @@
-//! The WIT moves only with its documents.
+//! The WIT changes only together with its history and the SDK's bindings.
 
 use std::fs;
+
+use wasmouse_engine::admission::INTERFACE_VERSION;
+use wasmouse_tests::bindings;
 
 /// One row of the history in `wit/README.md`.
 struct Row {
@@ -49,6 +52,16 @@ fn the_last_version_is_that_of_the_package() {
         read("wit/robot.wit").contains(&package),
         "no line `{package}`"
     );
-    let start = wasmouse_engine::admission::CONTROLLER_EXPORTS[0];
-    assert!(start.contains(&format!("@{}#", last.version)), "{start}");
+    assert_eq!(INTERFACE_VERSION, last.version);
+}
+
+#[test]
+fn the_bindings_of_the_sdk_are_those_of_the_wit() {
+    let generated = bindings::generate(&read("wit/robot.wit")).expect("a valid WIT package");
+    assert!(
+        generated == read(bindings::FILE),
+        "{} is not what the generator writes: run `{}` and commit the result",
+        bindings::FILE,
+        bindings::COMMAND
+    );
 }

@@ -1,7 +1,7 @@
 //! [`Composite`]: robots as components written out in full, for what a core module
 //! alone cannot express: more modules, inner components, canonical options.
 
-use crate::module::{Module, wasm};
+use crate::module::{Module, versioned, wasm};
 
 /// A component around a robot's module, in text. Its memory is `$memory`, the
 /// export of that name of the core instance `$libc`, and the module imports it with [`Composite::MEMORY`].
@@ -47,7 +47,7 @@ impl Default for Composite<'_> {
 
 /// The interface `types` as a component imports it, with names for its types.
 pub const TYPES: &str = r#"
-    (import "wasmouse:robot/types@0.1.0" (instance $types
+    (import "wasmouse:robot/types@VERSION" (instance $types
         (type $cell (record (field "x" u32) (field "y" u32)))
         (export "cell" (type $the-cell (eq $cell)))
         (type $area (record
@@ -58,8 +58,8 @@ pub const TYPES: &str = r#"
         (type $briefing (record
             (field "dimension" u32) (field "start" $the-cell) (field "goal" $the-area)
             (field "budget" u32) (field "budget-scope" $the-scope)
-            (field "longest-move" u32) (field "exploration-divisor" u32)
-            (field "seed" u64) (field "setting" u32)))
+            (field "longest-move" u32) (field "units-per-cell" u32)
+            (field "exploration-divisor" u32) (field "seed" u64) (field "variant" u32)))
         (export "briefing" (type (eq $briefing)))
         (type $sensors (record (field "left" u32) (field "front" u32) (field "right" u32)))
         (export "sensors" (type (eq $sensors)))
@@ -75,7 +75,7 @@ pub const TYPES: &str = r#"
 
 /// The function `log` of the journal as a component imports it.
 pub const JOURNAL: &str = r#"
-    (import "wasmouse:robot/journal@0.1.0" (instance $journal
+    (import "wasmouse:robot/journal@VERSION" (instance $journal
         (type $level (enum "debug" "info" "warning" "error"))
         (export "level" (type $the-level (eq $level)))
         (export "log" (func (param "level" $the-level) (param "message" string)))))"#;
@@ -93,7 +93,7 @@ impl Composite<'_> {
             memory,
         } = self;
         let robot = robot.wat().replacen("(module", "(core module $robot", 1);
-        format!(
+        versioned(&format!(
             r#"(component
                 {TYPES}
                 {JOURNAL}
@@ -107,19 +107,19 @@ impl Composite<'_> {
                 {robot}
                 (core instance $robot (instantiate $robot
                     (with "env" (instance $libc))
-                    (with "wasmouse:robot/journal@0.1.0" (instance $lowered))
+                    (with "wasmouse:robot/journal@VERSION" (instance $lowered))
                     {with}))
                 (func $start (param "briefing" $briefing)
-                    (canon lift (core func $robot "wasmouse:robot/controller@0.1.0#start")))
+                    (canon lift (core func $robot "wasmouse:robot/controller@VERSION#start")))
                 (func $next-move (param "sensors" $sensors) (result $action)
-                    (canon lift (core func $robot "wasmouse:robot/controller@0.1.0#next-move")
+                    (canon lift (core func $robot "wasmouse:robot/controller@VERSION#next-move")
                         (memory $memory) {next_options}))
                 {after}
                 (instance $controller
                     (export "start" (func $start))
                     (export "next-move" (func $next-move)))
-                (export "wasmouse:robot/controller@0.1.0" (instance $controller)))"#
-        )
+                (export "wasmouse:robot/controller@VERSION" (instance $controller)))"#
+        ))
     }
 
     /// The robot as one of two components inside another, beside one in text that has
@@ -144,11 +144,11 @@ impl Composite<'_> {
                     (with "log" (func $log))))
                 {robot}
                 (instance $robot (instantiate $robot
-                    (with "wasmouse:robot/types@0.1.0" (instance $types))
-                    (with "wasmouse:robot/journal@0.1.0" (instance $journal))
+                    (with "wasmouse:robot/types@VERSION" (instance $types))
+                    (with "wasmouse:robot/journal@VERSION" (instance $journal))
                     (with "take" (func $callee "take"))))
-                (alias export $robot "wasmouse:robot/controller@0.1.0" (instance $controller))
-                (export "wasmouse:robot/controller@0.1.0" (instance $controller)))"#
+                (alias export $robot "wasmouse:robot/controller@VERSION" (instance $controller))
+                (export "wasmouse:robot/controller@VERSION" (instance $controller)))"#
         ))
     }
 

@@ -3,7 +3,7 @@
 //! Tests and the hostile corpus state the part of a robot that matters to them; the
 //! rest is a harmless robot that drives on.
 
-use wasmouse_engine::admission::componentize;
+use wasmouse_engine::admission::{INTERFACE_VERSION, componentize};
 
 /// Where [`Module`] keeps the action "straight, 1 cell" in its memory.
 pub const DRIVE_ON: &str = "i32.const 16";
@@ -36,11 +36,20 @@ impl Default for Module<'_> {
     }
 }
 
-/// The parameters of `start`: the 13 numbers of the briefing.
-pub const START_PARAMETERS: &str = "(param i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i64 i32)";
+/// The parameters of `start`: the 14 numbers of the briefing.
+pub const START_PARAMETERS: &str =
+    "(param i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i64 i32)";
+
+/// The text with the version of the interface in place of `@VERSION`.
+///
+/// All texts of modules, components and messages in this crate write the version so. The
+/// functions that take or make such a text replace it.
+pub fn versioned(text: &str) -> String {
+    text.replace("@VERSION", &format!("@{INTERFACE_VERSION}"))
+}
 
 /// `log` of the journal as a module imports it: level, pointer, length.
-pub const IMPORT_LOG: &str = r#"(import "wasmouse:robot/journal@0.1.0" "log"
+pub const IMPORT_LOG: &str = r#"(import "wasmouse:robot/journal@VERSION" "log"
     (func $log (param i32 i32 i32)))"#;
 
 impl Module<'_> {
@@ -53,18 +62,18 @@ impl Module<'_> {
             memory,
             rest,
         } = self;
-        format!(
+        versioned(&format!(
             r#"(module
                 {imports}
                 {memory}
                 ;; the action at 16: move, straight, 1
                 (data (i32.const 16) "\00\01\01")
                 {rest}
-                (func (export "wasmouse:robot/controller@0.1.0#start")
+                (func (export "wasmouse:robot/controller@VERSION#start")
                     {START_PARAMETERS} {start})
-                (func (export "wasmouse:robot/controller@0.1.0#next-move")
+                (func (export "wasmouse:robot/controller@VERSION#next-move")
                     (param i32 i32 i32) (result i32) {next}))"#
-        )
+        ))
     }
 
     /// The module in binary form.
@@ -109,5 +118,6 @@ impl Module<'_> {
 /// When the text is none of WebAssembly.
 #[track_caller]
 pub fn wasm(text: &str) -> Vec<u8> {
-    wat::parse_str(text).unwrap_or_else(|error| panic!("{error}\n{text}"))
+    let text = versioned(text);
+    wat::parse_str(&text).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }

@@ -6,6 +6,7 @@
 
 use std::path::{Path, PathBuf};
 
+pub mod bindings;
 pub mod corpus;
 pub mod fuzz;
 pub mod manifest;

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use xtask::{corpus, fuzz, repository, robots, verify};
+use xtask::{bindings, corpus, fuzz, repository, robots, verify};
 
 /// Automation for the wasmouse repository.
 #[derive(Parser)]
@@ -23,6 +23,8 @@ enum Command {
         #[arg(long)]
         long: bool,
     },
+    /// Generate the SDK's bindings from wit/robot.wit.
+    Bindings,
     /// Build the bundled robots into example-robots/prebuilt.
     Robots {
         /// Build nothing: say which prebuilt robots are stale.
@@ -49,6 +51,7 @@ fn main() -> ExitCode {
     let root = repository();
     let outcome = match Cli::parse().command {
         Command::Test { long } => verify::run(&root, long),
+        Command::Bindings => bindings::generate(&root),
         Command::Robots { check: false } => robots::rebuild(&root),
         Command::Robots { check: true } => robots::check(&root),
         Command::Corpus { arguments } => corpus::run(&root, &arguments),

@@ -39,15 +39,15 @@ pub struct Entry {
     pub sources_sha256: String,
     /// The compiler, as the component itself names it.
     pub toolchain: String,
-    /// The values of `briefing.setting` that it takes.
-    #[serde(default, rename = "setting")]
-    pub settings: Vec<Setting>,
+    /// The values of `briefing.variant` that it takes.
+    #[serde(default, rename = "variant")]
+    pub variants: Vec<Variant>,
 }
 
-/// One value of `briefing.setting`.
+/// One value of `briefing.variant`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Setting {
+pub struct Variant {
     /// The number that the robot gets.
     pub value: u32,
     /// A short name for the number.
@@ -78,8 +78,8 @@ struct Metadata {
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RobotMetadata {
-    #[serde(default, rename = "setting")]
-    settings: Vec<Setting>,
+    #[serde(default, rename = "variant")]
+    variants: Vec<Variant>,
 }
 
 /// The folder of the prebuilt robots.
@@ -89,12 +89,12 @@ pub fn folder(root: &Path) -> PathBuf {
 
 /// The table in the host's sources.
 pub fn table_path(root: &Path) -> PathBuf {
-    root.join("host/src/robot/bundled/table.rs")
+    root.join("host/engine/src/bundled/table.rs")
 }
 
 impl Manifest {
-    /// The only version of the format so far.
-    pub const SCHEMA: u32 = 1;
+    /// The version of the format.
+    pub const SCHEMA: u32 = 2;
 
     /// Reads the manifest of the repository at `root`.
     ///
@@ -117,7 +117,7 @@ impl Manifest {
     /// The table that the host compiles in.
     pub fn to_rust(&self) -> String {
         let mut text = "//! The bundled robots. Written by `cargo xtask robots`, not by hand.\n\n\
-             use super::{BundledRobot, Setting};\n\n\
+             use super::robot::{BundledRobot, Variant};\n\n\
              pub(super) const ROBOTS: &[BundledRobot] = &["
             .to_owned();
         for robot in &self.robots {
@@ -128,11 +128,11 @@ impl Manifest {
                 sha256,
                 ..
             } = robot;
-            let settings: String = robot.settings.iter().map(Setting::to_rust).collect();
+            let variants: String = robot.variants.iter().map(Variant::to_rust).collect();
             write!(
                 text,
                 "BundledRobot {{ name: {name:?}, description: {description:?}, \
-                 settings: &[{settings}], \
+                 variants: &[{variants}], \
                  component: include_bytes!(\"../../../../example-robots/prebuilt/{file}\"), \
                  sha256: {sha256:?}, }},"
             )
@@ -143,14 +143,14 @@ impl Manifest {
     }
 }
 
-impl Setting {
+impl Variant {
     fn to_rust(&self) -> String {
         let Self {
             value,
             name,
             description,
         } = self;
-        format!("Setting {{ value: {value}, name: {name:?}, description: {description:?}, }},")
+        format!("Variant {{ value: {value}, name: {name:?}, description: {description:?}, }},")
     }
 }
 
@@ -181,7 +181,7 @@ impl Entry {
             sha256: crate::sources::sha256(component),
             sources_sha256: crate::sources::sources_sha256(root, name)?,
             toolchain,
-            settings: parsed.package.metadata.wasmouse.settings,
+            variants: parsed.package.metadata.wasmouse.variants,
         })
     }
 }
@@ -221,7 +221,7 @@ mod tests {
                 sha256: "aa".into(),
                 sources_sha256: "bb".into(),
                 toolchain: "rustc 1.95.0".into(),
-                settings: vec![Setting {
+                variants: vec![Variant {
                     value: 1,
                     name: "fast".into(),
                     description: "drives".into(),
@@ -245,7 +245,7 @@ mod tests {
             "{table}"
         );
         assert!(
-            table.contains(r#"Setting { value: 1, name: "fast""#),
+            table.contains(r#"Variant { value: 1, name: "fast""#),
             "{table}"
         );
     }

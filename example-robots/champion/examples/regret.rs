@@ -7,11 +7,11 @@
 //!     cargo run --release -p robot-champion --example regret -- -d division/* tree/*
 //!
 //! Files are of the Udacity text format, with the contest's start and goal. Before them,
-//! `-v` prints a line for each, and `-d` plays the setting `deep`.
+//! `-v` prints a line for each, and `-d` plays the variant `deep`.
 //!
-//! The parts of the regret, which add up to it, in steps of the race: what it took to
+//! The parts of the regret, which add up to it, in steps of the speed run: what it took to
 //! reach the goal for the first time, beyond the fewest steps and divided by 30; what
-//! was explored from then on, divided by 30; what the race took beyond the fewest steps.
+//! was explored from then on, divided by 30; what the speed run took beyond the fewest steps.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -24,9 +24,9 @@ use wasmouse_sdk::{Area, Cell, CellSet, Heading, Passages, Search};
 fn main() {
     let mut files: Vec<String> = std::env::args().skip(1).collect();
     let verbose = files.iter().any(|it| it == "-v");
-    let setting = u32::from(files.iter().any(|it| it == "-d"));
+    let variant = u32::from(files.iter().any(|it| it == "-d"));
     files.retain(|it| !it.starts_with('-'));
-    let options = PlayOptions::of_setting(setting);
+    let options = PlayOptions::of_variant(variant);
     let mut sets: BTreeMap<String, Set> = BTreeMap::new();
     for file in &files {
         let text = std::fs::read_to_string(file).expect("a maze file");
@@ -49,7 +49,7 @@ fn main() {
     }
 }
 
-/// The regret of a match, in steps of the race.
+/// The regret of a match, in steps of the speed run.
 #[derive(Clone, Copy)]
 struct Parts {
     to_goal: f64,

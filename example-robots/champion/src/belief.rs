@@ -1,20 +1,19 @@
-//! What the robot believes about walls that it has not seen: [`Belief`].
+//! What the robot believes about unknown walls: [`Belief`].
 //!
-//! A wall is judged by its eight neighbours ([`Grid::neighborhood`]): for each of the
-//! 256 patterns of open and closed neighbours, training has counted how often the
-//! wall between is open, in several kinds of generated mazes. Since most neighbours
-//! are unknown too, the robot keeps some complete mazes that agree with everything
-//! seen, and redraws every unknown wall of each again and again, given its neighbours
-//! there (Gibbs sampling of a Markov random field; Geman and Geman, *Stochastic
-//! Relaxation, Gibbs Distributions, and the Bayesian Restoration of Images*, 1984).
-//! What it averages to is the chance that a wall is open.
+//! A wall is predicted from its eight neighbours ([`Grid::neighborhood`]): for each of the 256
+//! patterns of open and closed neighbours, training has counted how often the wall between
+//! them is open, in several kinds of generated mazes. Most neighbours are unknown as well, so
+//! the robot keeps some complete mazes that agree with everything it has seen, and repeatedly
+//! resamples every unknown wall of each, given its neighbours there (Gibbs sampling of a
+//! Markov random field; Geman and Geman, *Stochastic Relaxation, Gibbs Distributions, and the
+//! Bayesian Restoration of Images*, 1984). The average is the probability that a wall is open.
 //!
-//! Which kind of maze it is in, and how dense, the robot learns on the way: every
-//! wall that it gets to see speaks for the kinds that expected it (Bayes' rule, with
-//! neighbours taken as independent).
+//! The robot also learns which kind of maze it is in, and how dense it is: every wall that it
+//! sees is evidence for the kinds that predicted it (Bayes' rule, with neighbours taken as
+//! independent).
 //!
-//! The goal room of a contest maze is open inside and has one entrance; that is
-//! believed until the maze contradicts it.
+//! The goal room of a contest maze is open inside and has one entrance. The belief assumes
+//! that until the maze contradicts it.
 
 use wasmouse_sdk::{Briefing, Cell, Grid, Heading, Random};
 

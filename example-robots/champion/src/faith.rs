@@ -1,9 +1,9 @@
-//! Whether questions pay here as often as expected: [`Faith`].
+//! Whether questions pay off as often as expected: [`Faith`].
 //!
-//! In some mazes, above all those drawn by people, one promising way after another
-//! turns out to be closed. The robot compares how many of its questions were answered
-//! with a shorter way with how many it expected, and expects less of the next ones
-//! where it has been disappointed, or more.
+//! In some mazes, especially those drawn by people, one promising path after another turns
+//! out to be closed. The robot compares how many questions led to a shorter path with how many
+//! it expected, and expects less of the next ones if there were fewer, and more if there were
+//! more.
 
 use crate::knowledge::Known;
 
@@ -12,18 +12,18 @@ use crate::knowledge::Known;
 pub struct Faith {
     /// The chances of the questions answered, added up.
     expected: f32,
-    /// How many of them made the known way shorter.
+    /// How many of them made the known path shorter.
     fulfilled: f32,
     asked: Option<Asked>,
 }
 
 /// A question that has not been answered yet.
 struct Asked {
-    /// How likely the shorter way was when the robot began to look for it.
+    /// How likely the shorter path was when the robot began to look for it.
     chance: f32,
-    /// The steps of the known way then.
+    /// The steps of the known path then.
     known_steps: u32,
-    /// The unknown walls of the shorter way.
+    /// The unknown walls of the shorter path.
     walls: Vec<usize>,
 }
 
@@ -34,7 +34,7 @@ impl Faith {
         (self.fulfilled + prior) / (self.expected + prior)
     }
 
-    /// Takes note of what is known now: the steps of the known way, and walls.
+    /// Takes note of what is known now: the steps of the known path, and walls.
     pub fn hear(&mut self, known_steps: u32, known: &[Known]) {
         let Some(asked) = &self.asked else {
             return;

@@ -1,6 +1,6 @@
-//! What a plan is made from: [`Knowledge`].
+//! The input of the planner: [`Knowledge`].
 //!
-//! Once a decision, the belief's chances are turned into costs.
+//! Once per decision it turns the probabilities of the belief into costs.
 
 use wasmouse_sdk::{Grid, IMPASSABLE, Passages};
 
@@ -38,7 +38,7 @@ pub struct Knowledge {
     /// By wall, on the way to the goal for the first time: nothing where it is open,
     /// [`IMPASSABLE`] where closed, between them where unknown.
     pub goal_costs: Vec<u16>,
-    /// The same for the way from start to goal that is looked for afterwards.
+    /// The same for the path from start to goal that is looked for afterwards.
     pub way_costs: Vec<u16>,
     /// By wall, where unknown: -ln of the chance that it is open.
     pub surprise: Vec<f32>,

@@ -1,64 +1,31 @@
-//! The champion: learns what kind of maze it is in, and explores only what is likely
-//! to pay.
+//! The champion: learns what kind of maze it is in, and explores only what is likely to
+//! pay off.
 //!
-//! No report describes this robot. It plays for the score: a step of exploring costs
-//! a thirtieth of a step of racing, so it wants the goal soon, and afterwards only
-//! such knowledge as is worth its price.
+//! No report describes this robot. It plays for the score: a step of the exploration run
+//! costs a thirtieth of a step of the speed run, so it heads for the goal at once, and
+//! afterwards explores only where the expected gain exceeds the cost.
 //!
-//! - *Believing*: chances for walls not seen yet, from patterns counted in generated
-//!   mazes and from what this maze has shown so far, and whole mazes drawn with these
-//!   chances (`belief.rs`).
-//! - *Exploring*: to the goal on the way that is shortest when every unknown wall costs
-//!   some steps; then after shorter ways that may exist, the one first that promises most
-//!   for each step of looking, until none promises enough (`planner.rs`), or until too
-//!   many have turned out closed (`faith.rs`).
-//! - *Racing*: the fewest steps through walls known to be open.
+//! - *Belief*: probabilities for unseen walls, from patterns counted in generated mazes and
+//!   from what this maze has shown so far, and complete mazes sampled with these
+//!   probabilities (`belief.rs`).
+//! - *Exploration run*: first to the goal on the path that is cheapest when every unknown
+//!   wall costs some steps. Then it checks shorter paths that may exist, the one with the
+//!   highest expected gain per step first, until none is worth its cost (`planner.rs`) or
+//!   too many have turned out to be closed (`faith.rs`).
+//! - *Speed run*: the fewest steps through walls known to be open.
 //!
-//! When the reset comes with proof that no shorter way exists, whatever the unknown
-//! walls are, it writes [`PROVEN`] to the journal.
+//! If no shorter path can exist when it resets, whatever the unknown walls are, it writes
+//! [`PROVEN`] to the journal.
 //!
-//! It reaches the goal wherever that is possible within the budget: every wall not
-//! known to be closed can be driven through at a finite cost, and every detour has
-//! taught it a wall. When the goal turns out to be walled in, it turns on the spot.
-//! The parameters are trained on generated mazes only: `training.toml` has the seeds,
-//! and `cargo run --release -p robot-champion --example train` writes them.
+//! The robot reaches the goal wherever that is possible within the budget: it can plan
+//! through any wall that is not known to be closed, at a finite cost, and every detour
+//! teaches it a wall. If the goal turns out to be walled in, it turns on the spot.
 //!
-//! Measured natively (`cargo run --release -p robot-champion --example regret`): the
-//! mean regret, which is the score minus the score of a robot that knows the maze, with
-//! its standard error, and that of the difference in the same mazes. The generated mazes
-//! have the sizes 12..=20 and the seeds 1..=50, never trained on; the competition mazes
-//! are 16 x 16; no parameter was tuned on them. But that faith is kept count of at all
-//! was thought of after `fast` was seen to explore for 600 steps in some of them, and
-//! helped there far more than in generated mazes.
+//! Variants: 0 is fast. 1 is deep: it samples more mazes and checks the shortest path of
+//! each. In mazes of more than 20 x 20 cells both play alike.
 //!
-//! | mazes | count | `fast` | `deep` | difference |
-//! |---|---|---|---|---|
-//! | division | 250 | 1.539 | 1.539 +- 0.096 | -0.000 +- 0.019 |
-//! | tree,loops=12 | 250 | 1.351 | 1.398 +- 0.079 | +0.047 +- 0.037 |
-//! | braid | 250 | 1.584 | 1.572 +- 0.079 | -0.013 +- 0.055 |
-//! | competition, one entrance to the goal | 228 | 4.394 | 4.046 +- 0.105 | -0.348 +- 0.070 |
-//! | competition, several entrances | 31 | 4.013 | 4.383 +- 0.502 | +0.370 +- 0.413 |
-//!
-//! So more mazes to ask help in those drawn by people and not in generated ones, whose
-//! walls they do not foretell better. That the shortest ways of sampled mazes are asked
-//! at all took 0.07 off the mean of six kinds of generated mazes, 250 each, and a sixth
-//! off the regret in competition mazes. The official scores add up to 76.800 and 77.467,
-//! against 66.234; three mazes cannot tell much: versions that are equally good in
-//! hundreds of mazes had sums between 75.3 and 77.7.
-//!
-//! Of the regret in generated mazes, 1.34 of 1.54 and 1.01 of 1.40 are paid before the
-//! goal is reached for the first time. There is little left to gain by knowing better:
-//! the same price for every unknown wall does as well as any chances tried. A million
-//! possible moves of that simple robot, in 11,000 mazes of both kinds, were played to the
-//! goal; no function of forty features of the move and the map (gradient boosted trees)
-//! chose better ones: by 0.0002 +- 0.0004 of a score a decision, in mazes that it had not
-//! learned from. Nor did imagined matches, three times as many sampled mazes, costs found
-//! by evolution (0.02 better), or the options that a way leaves when it fails.
-//!
-//! Settings: 0 is fast, 1 is deep, which draws more mazes and asks the shortest way of
-//! each. In mazes of more than 20 x 20 cells both are the same. In 264 mazes of up to
-//! 20 x 20 cells, most of them from competitions, `deep` used up to 4.6 thousand million
-//! units of fuel a match and 0.05 a step, on average 2.2 a match.
+//! The parameters are trained on generated mazes only (`training.toml`). `README.md`, in the
+//! folder of this crate, has the measurements.
 
 mod belief;
 mod faith;
@@ -81,10 +48,10 @@ use knowledge::{Knowledge, Known};
 use parameters::KINDS;
 use planner::{Plan, Planner};
 
-/// What the journal says when the best way is certain.
+/// Logged when the best path is certain.
 pub const PROVEN: &str = "optimal way proven";
 
-/// How much the robot thinks.
+/// How much the robot computes.
 struct Effort {
     /// Sampled mazes of the belief.
     samples: usize,
@@ -158,13 +125,13 @@ impl Champion {
     ///
     /// # Panics
     ///
-    /// On a setting it does not have.
+    /// On a variant it does not have.
     pub fn with_parameters(briefing: &Briefing, parameters: [Parameters; KINDS]) -> Self {
-        let effort = match (briefing.setting, briefing.dimension) {
+        let effort = match (briefing.variant, briefing.dimension) {
             (1, ..=DEEP_MAX) => DEEP,
             (0 | 1, ..=FAST_MAX) => FAST,
             (0 | 1, _) => SPARING,
-            _ => panic!("champion has the settings 0 and 1"),
+            _ => panic!("champion has the variants 0 and 1"),
         };
         Self {
             tracker: Tracker::new(briefing),

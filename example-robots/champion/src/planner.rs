@@ -1,12 +1,12 @@
-//! The rules by which the robot decides: [`Planner`].
+//! How the robot decides: [`Planner`].
 //!
-//! On the way to the goal an unknown wall costs some steps, a little more when it is
-//! likely to stand; the robot takes the cheapest way. Once the goal has been reached,
-//! it knows a way, and asks questions: does this shorter one exist? The answer is worth
-//! the steps saved in the race, times the chance that the way exists; it costs the steps
-//! to go and look. The robot goes for the question that promises most for each step, until
-//! none promises enough. Its questions are the cheapest ways under several costs of
-//! unlikely walls, and the shortest ways in the sampled mazes of the belief.
+//! Until it has reached the goal, every unknown wall costs some steps, a few more if it is
+//! likely to be closed, and the robot takes the cheapest path. Afterwards it knows a path and
+//! asks questions of the form: does this shorter path exist? An answer is worth the steps
+//! saved in the speed run, times the probability that the path exists. It costs the steps to
+//! go and look. The robot picks the question with the highest gain per step, until none is
+//! worth its cost. Candidates are the cheapest paths under several costs for unlikely walls,
+//! and the shortest paths in the sampled mazes of the belief.
 
 use wasmouse_sdk::{
     Briefing, Cell, CellSet, Grid, Heading, Hop, IMPASSABLE, Passages, Pose, Search, WeightedSearch,
@@ -26,7 +26,7 @@ const CAUTIONS: [f32; 5] = [1.0, 0.4, 0.65, 1.6, 2.6];
 pub enum Plan {
     /// Drive.
     Drive(Hop),
-    /// Look around where it stands.
+    /// Turn on the spot to look around.
     Look,
     /// Exploring on does not pay.
     Stop,
@@ -69,7 +69,7 @@ impl Planner {
         }
     }
 
-    /// The next hop of the way to the goal that is cheapest in view of what is
+    /// The next hop of the path to the goal that is cheapest in view of what is
     /// unknown; `None` when the goal is walled in.
     pub fn toward_goal(&mut self, knowledge: &Knowledge, from: Cell) -> Option<Hop> {
         let from = self.grid.cell(from);
@@ -78,7 +78,7 @@ impl Planner {
         self.weighted.hop(from)
     }
 
-    /// The next hop of a shortest known way to the goal.
+    /// The next hop of a shortest known path to the goal.
     pub fn race(&mut self, open: &Passages, from: Cell) -> Option<Hop> {
         self.search.fill_until(open, &self.goal, from);
         self.search.hops(open, from).next()
@@ -148,9 +148,9 @@ impl Planner {
 /// Looks for the question that promises most.
 struct Choice<'a> {
     parameters: &'a Parameters,
-    /// Of the known way.
+    /// Of the known path.
     known_steps: u32,
-    /// Steps of exploring that a saved step of the race is worth.
+    /// Steps of exploring that a saved step of the speed run is worth.
     worth_of_step: f32,
     /// Filled with the steps from where the robot stands.
     distances: &'a Search,
@@ -159,7 +159,7 @@ struct Choice<'a> {
 }
 
 impl Choice<'_> {
-    /// Asks whether a way exists, if that promises enough and more than all before.
+    /// Asks whether a path exists, if that promises enough and more than all before.
     fn consider(&mut self, knowledge: &Knowledge, way: impl Iterator<Item = (usize, Hop)>) {
         let question = Question::of(knowledge, way, self.parameters.doubt);
         let vantages = question.vantages.iter();
@@ -181,7 +181,7 @@ impl Choice<'_> {
     }
 }
 
-/// A way from start to goal that may exist.
+/// A path from start to goal that may exist.
 struct Question {
     steps: u32,
     /// How likely it is taken to exist.
@@ -253,7 +253,7 @@ mod tests {
     use crate::parameters::SCALARS;
     use wasmouse_sdk::Area;
 
-    /// A known way around three sides of a square, and what lies across it unknown.
+    /// A known path around three sides of a square, and what lies across it unknown.
     fn plan(chance: f32, mazes: &[Vec<u8>]) -> Plan {
         let goal = Cell::new(4, 0);
         let briefing = Briefing {

@@ -1,7 +1,7 @@
-//! What a contest promises of the goal: [`Room`].
+//! What the contest rules promise about the goal: [`Room`].
 //!
-//! The goal room of a contest maze stands in the centre, is open inside and has one
-//! entrance. That is believed until the maze contradicts it.
+//! The goal room of a contest maze is in the centre, is open inside and has one entrance. The
+//! robot assumes that until the maze contradicts it.
 
 use wasmouse_sdk::{Area, Briefing, Grid, Heading};
 
@@ -13,7 +13,7 @@ pub struct Room {
     /// The walls around it, of which one is open.
     entrances: Vec<u16>,
     inside: Vec<u16>,
-    /// By wall: asked for every unknown wall after every step.
+    /// By wall: asked forevery unknown wall after every step.
     parts: Vec<Part>,
 }
 

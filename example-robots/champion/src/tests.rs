@@ -34,7 +34,7 @@ fn contest_mazes_deep() {
         (3, "finished 99 + 27: 30.300"),
     ];
     let options = PlayOptions {
-        setting: 1,
+        variant: 1,
         ..PlayOptions::default()
     };
     let mazes = contest_mazes::contest_mazes();
@@ -45,7 +45,7 @@ fn contest_mazes_deep() {
     }
 }
 
-/// A budget that is just enough for the first way to the goal and back is enough.
+/// A budget that is just enough for the first path to the goal and back is enough.
 #[test]
 fn stops_exploring_in_time() {
     let played = |budget| {
@@ -81,10 +81,10 @@ fn a_goal_that_is_walled_in() {
 }
 
 #[test]
-#[should_panic(expected = "the settings 0 and 1")]
-fn an_unknown_setting() {
+#[should_panic(expected = "the variants 0 and 1")]
+fn an_unknown_variant() {
     Champion::start(&Briefing {
-        setting: 2,
+        variant: 2,
         ..Briefing::contest(12)
     });
 }
@@ -119,8 +119,8 @@ fn any_maze(dimension: u32) -> String {
 /// So that the fuel of a match is enough in half-size mazes too.
 #[test]
 fn thinks_deeply_in_small_mazes_only() {
-    let stops = |dimension, setting| {
-        let options = PlayOptions::of_setting(setting);
+    let stops = |dimension, variant| {
+        let options = PlayOptions::of_variant(variant);
         testing::play::<Champion>(&any_maze(dimension), &options).stops
     };
     assert_ne!(stops(20, 0), stops(20, 1));

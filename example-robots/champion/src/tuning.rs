@@ -8,13 +8,13 @@ pub struct Parameters {
     /// What it costs besides. Unit: steps for each unit of -ln of the chance that it is
     /// open.
     pub goal_caution: f32,
-    /// The same for the ways from start to goal that are looked for afterwards.
+    /// The same for the paths from start to goal that are looked for afterwards.
     pub way_caution: f32,
-    /// The power of the chance that such a way exists.
+    /// The power of the chance that such a path exists.
     pub doubt: f32,
     /// Steps of exploring that have to be gained, for each step to go and look.
     pub reluctance: f32,
-    /// Steps that looking costs besides the way to the first wall.
+    /// Steps that looking costs besides the path to the first wall.
     pub overhead: f32,
     /// See `Faith::factor`.
     pub faith_prior: f32,

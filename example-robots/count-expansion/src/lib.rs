@@ -1,26 +1,25 @@
 //! Lobato's count expansion, the second benchmark of his report.
 //!
-//! What the report says: a breadth-first expansion opens every square around it
-//! until it finds the goal, and the way is built in reverse, from the goal back to
-//! the robot. His A* (section 3.2.2) is this with a heuristic added, and shows the
-//! details:
+//! From the report: a breadth-first expansion opens the squares around the robot until it
+//! finds the goal; the path is then built backwards, from the goal to the robot. His A*
+//! (section 3.2.2) adds a heuristic to it and shows the details:
 //!
-//! - walls not seen yet count as open; the expansion starts again at every step;
-//! - every square gets the next number when it is opened; neighbours are opened in
-//!   the order up, left, down, right;
-//! - the way back goes from the goal to the neighbour with the smallest number;
-//! - the first straight stretch of the way is one move, of at most three cells (the
-//!   "intensity"); nothing else plans in steps;
-//! - the goal is one cell, the top left one of the room; there the robot resets, and
-//!   run 2 goes the same way, on the map that run 1 has left behind, unknown walls
-//!   still open.
+//! - Unknown walls count as open, and the expansion starts again in every step.
+//! - Every square gets the next number when it is opened. Neighbours are opened in the order
+//!   up, left, down, right.
+//! - The path goes from the goal to the neighbour with the smallest number, and so on.
+//! - The first straight stretch of the path is one move of at most three cells (the
+//!   "intensity"). Nothing else counts steps.
+//! - The goal is one cell, the top left one of the room. There the robot resets. The speed
+//!   run follows the same rules with the map from the exploration run; unknown walls still
+//!   count as open.
 //!
-//! What it leaves open, and what was chosen here: *the straight stretch* is counted
-//! along the way as far as it goes; *behind the robot* unknown walls are looked at
-//! first; *another goal cell* is taken when the top left one cannot be reached.
+//! What the report leaves open: the straight stretch is counted as far as it goes; an unknown
+//! wall behind the robot is looked at first; another goal cell is used if the top left one
+//! cannot be reached.
 //!
-//! The result, steps of run 1 with the reset + steps of run 2 (the report's table
-//! leaves the reset out of its steps but not out of its scores):
+//! Results, as exploration steps (including the reset) + speed steps: score. The report's
+//! table does not count the reset as a step, but its scores do.
 //!
 //! | maze | report | this robot |
 //! |---|---|---|
@@ -28,11 +27,10 @@
 //! | 02 | 56 + 47: 48.867 | 60 + 44: 46.000 |
 //! | 03 | 75 + 48: 50.500 | 75 + 47: 49.500 |
 //!
-//! So it lands within 4 steps of every figure. The differences must come from ties:
-//! the order in which the report's benchmark (not its A*) opened its squares is not
-//! printed.
+//! Every figure is within 4 steps of the report's. The differences must come from ties: the
+//! report does not print in which order its benchmark (unlike its A*) opens squares.
 //!
-//! Settings: only 0.
+//! Variants: only 0.
 
 use wasmouse_sdk::{
     Action, Briefing, Cell, CellSet, Expansion, Hop, Map, Robot, Sensors, Tracker, Turn, View,
@@ -53,8 +51,8 @@ export_robot!(CountExpansion);
 impl Robot for CountExpansion {
     fn start(briefing: &Briefing) -> Self {
         assert!(
-            briefing.setting == 0,
-            "the count expansion has the setting 0 only"
+            briefing.variant == 0,
+            "the count expansion has the variant 0 only"
         );
         let goal = briefing.goal;
         Self {
@@ -89,7 +87,7 @@ impl Robot for CountExpansion {
 }
 
 impl CountExpansion {
-    /// The first stretch of the way that the expansion finds: breadth first, which
+    /// The first stretch of the path that the expansion finds: breadth first, which
     /// is to go on from all squares in the order in which they were opened.
     fn hop_to(&mut self, targets: &CellSet) -> Option<Hop> {
         let passages = self.tracker.map().passages(View::Optimistic);
@@ -151,10 +149,10 @@ mod tests {
     }
 
     #[test]
-    #[should_panic(expected = "setting 0 only")]
-    fn an_unknown_setting() {
+    #[should_panic(expected = "variant 0 only")]
+    fn an_unknown_variant() {
         CountExpansion::start(&Briefing {
-            setting: 1,
+            variant: 1,
             ..Briefing::contest(12)
         });
     }

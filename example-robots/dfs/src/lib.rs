@@ -1,40 +1,38 @@
-//! The depth-first searches of the sketch-city report: with backtracking, and pure.
+//! The depth-first searches from the sketch-city report: with backtracking, and pure.
 //!
-//! What the report says: visit every cell that can be reached. In each cell, go on
-//! to a neighbour not visited yet; in a dead end, drive back the way it came to the
-//! latest intersection with something left; signal when everything is explored. Its
-//! code pushes the neighbours in the order north, west, south, east and takes the
-//! last one first. It paints visited cells green and, in the end, its own cell blue;
-//! so does this robot, and its signal is a journal entry: `everything explored`.
+//! From the report: visit every reachable cell. In each cell, continue to an unvisited
+//! neighbour; in a dead end, drive back to the latest intersection that still has one; signal
+//! when everything is explored. Its code pushes the neighbours in the order north, west,
+//! south, east and takes the last one first. It paints visited cells green and its own cell
+//! blue at the end. So does this robot; its signal is the log message `everything explored`.
 //!
-//! Its first version, *pure* depth-first search, visits the cells in the same order,
-//! but does not drive back: the position jumps from the dead end to the next branch.
-//! No robot can do that. The nearest to it is to forget the way it came, and to drive
-//! to the branch in as few steps as the cells visited so far allow; so does the
-//! setting `pure`. In a maze without loops there is one way only, and both are the
-//! same but for stops on it; with loops the pure one often cuts a corner.
+//! The report's first version, *pure* depth-first search, visits cells in the same order but
+//! does not drive back: the position jumps from the dead end to the next branch. A robot
+//! cannot do that. The variant `pure` comes closest: it drives to the branch in as few steps
+//! as the visited cells allow. In a maze without loops there is only one path, so both
+//! variants differ only in where they stop; with loops, `pure` often takes a shortcut.
 //!
-//! What it leaves open, and what was chosen here:
+//! What the report leaves open:
 //!
-//! - *Steps*: the report counts none. New cells are entered one at a time, because
-//!   each has to be looked at; the way back is driven in hops of up to the longest
-//!   move, backwards where that saves a turn, and ends at the first cell with
-//!   something left.
-//! - *What is behind*: the report's simulation sees all four neighbours. Here a wall
-//!   behind the robot may be unknown; it turns to look at it before it leaves the
-//!   cell, unless the cell beyond has been visited anyway.
-//! - *The contest*: the report has no goal and no second run. When everything is
-//!   explored, this robot resets if it has stood in the goal, and runs the fewest
-//!   steps through walls known to be open. It also resets when the budget has just
-//!   enough steps left for that.
+//! - *Steps*: the report does not count them. New cells are entered one at a time, because
+//!   each has to be looked at. The path back uses moves of up to the longest move, drives
+//!   backwards where that saves a turn, and ends at the first cell with an unvisited
+//!   neighbour.
+//! - *Behind the robot*: the report's simulation senses all four neighbours. Here a wall
+//!   behind the robot may be unknown. The robot turns to look at it before it leaves the
+//!   cell, unless the cell beyond has already been visited.
+//! - *The contest*: the report has no goal and no second run. When everything is explored,
+//!   this robot resets if it has been in the goal, and then takes the fewest steps through
+//!   walls known to be open. It also resets when the remaining budget is just enough for the
+//!   speed run.
 //!
-//! A cell costs at most two steps, so a maze of 20 x 20 is explored in at most 800
-//! of the 1000 steps, apart from looks behind.
+//! A cell costs at most two steps, so a maze of 20 x 20 cells takes at most 800 of the 1000
+//! steps, not counting looks behind.
 //!
-//! Settings: 0 explores everything, 1 resets as soon as it stands in the goal, 2
-//! explores everything by pure depth-first search.
+//! Variants: 0 explores everything; 1 resets as soon as it is in the goal; 2 explores
+//! everything by pure depth-first search.
 //!
-//! | setting | maze 01 | maze 02 | maze 03 |
+//! | variant | maze 01 | maze 02 | maze 03 |
 //! |---|---|---|---|
 //! | everything | 244 + 17: 25.133 | 334 + 22: 33.133 | 420 + 25: 39.000 |
 //! | reset | 52 + 17: 18.733 | 94 + 27: 30.133 | 217 + 27: 34.233 |
@@ -53,7 +51,7 @@ const ORDER: [Heading; 4] = [Heading::Right, Heading::Down, Heading::Left, Headi
 pub struct DepthFirst {
     tracker: Tracker,
     visited: CellSet,
-    /// The way from the start to here, cell by cell.
+    /// The path from the start to here, cell by cell.
     trail: Vec<Heading>,
     /// Distances to the goal through walls known to be open.
     search: Search,
@@ -71,11 +69,11 @@ export_robot!(DepthFirst);
 
 impl Robot for DepthFirst {
     fn start(briefing: &Briefing) -> Self {
-        let (explores_everything, is_pure) = match briefing.setting {
+        let (explores_everything, is_pure) = match briefing.variant {
             0 => (true, false),
             1 => (false, false),
             2 => (true, true),
-            _ => panic!("depth-first search has the settings 0 to 2"),
+            _ => panic!("depth-first search has the variants 0 to 2"),
         };
         Self {
             tracker: Tracker::new(briefing),
@@ -274,11 +272,11 @@ mod tests {
             (3, 2, "finished 338 + 25: 36.267"),
         ];
         let mazes = contest_mazes::contest_mazes();
-        for (number, setting, expected) in expected {
-            let options = PlayOptions::of_setting(setting);
+        for (number, variant, expected) in expected {
+            let options = PlayOptions::of_variant(variant);
             if let Some((_, maze)) = mazes.iter().find(|it| it.0 == number) {
                 let played = play(maze, &options);
-                assert_eq!(signals(&played), usize::from(setting != 1));
+                assert_eq!(signals(&played), usize::from(variant != 1));
                 assert_eq!(played.summary(), expected, "maze {number}");
             }
         }
@@ -300,8 +298,8 @@ mod tests {
     /// Both searches visit every cell, in the order of the report's stack.
     #[test]
     fn visits_every_cell_of_maze_01() {
-        let [backtracking, pure] = [0, 2].map(|setting| {
-            let options = PlayOptions::of_setting(setting);
+        let [backtracking, pure] = [0, 2].map(|variant| {
+            let options = PlayOptions::of_variant(variant);
             visits(&play(MAZE_01, &options))
         });
         assert_eq!(backtracking.len(), 144);
@@ -341,10 +339,10 @@ mod tests {
 
     #[test]
     fn stops_exploring_in_time() {
-        for (budget, setting) in (100..300).flat_map(|it| [(it, 0), (it, 2)]) {
+        for (budget, variant) in (100..300).flat_map(|it| [(it, 0), (it, 2)]) {
             let options = PlayOptions {
                 budget,
-                setting,
+                variant,
                 ..PlayOptions::default()
             };
             let played = play(MAZE_01, &options);
@@ -354,9 +352,9 @@ mod tests {
 
     #[test]
     fn looks_behind_a_start_in_the_middle() {
-        for setting in [0, 2] {
+        for variant in [0, 2] {
             let options = PlayOptions {
-                setting,
+                variant,
                 start: Cell::new(0, 5),
                 goal: Some(Area::new(Cell::new(0, 0), 1, 1)),
                 ..PlayOptions::default()
@@ -370,8 +368,8 @@ mod tests {
     #[test]
     fn a_goal_that_is_walled_in() {
         let maze = "3\n1,5,4\n0,0,0\n0,0,0";
-        for setting in [0, 2] {
-            let options = PlayOptions::of_setting(setting);
+        for variant in [0, 2] {
+            let options = PlayOptions::of_variant(variant);
             let played = play(maze, &options);
             assert_eq!(played.summary(), "goal not seen 1000 + 0");
             assert_eq!(signals(&played), 1);
@@ -379,10 +377,10 @@ mod tests {
     }
 
     #[test]
-    #[should_panic(expected = "settings 0 to 2")]
-    fn an_unknown_setting() {
+    #[should_panic(expected = "variants 0 to 2")]
+    fn an_unknown_variant() {
         DepthFirst::start(&Briefing {
-            setting: 3,
+            variant: 3,
             ..Briefing::contest(12)
         });
     }

@@ -1,26 +1,26 @@
-//! The flood robot: always on the shortest path that may still exist.
+//! The flood robot: flood fill, treating unknown walls as open.
 //!
-//! Its name comes from the flood fill of micromouse robots: numbers spread from
-//! the goal like water, and the robot runs downhill. Here the numbers are steps
-//! of up to three cells, not cells, because steps are what the contest counts.
-//! No report describes exactly this robot; it is the yardstick for theirs.
+//! Classic micromouse robots number the cells by their distance to the goal and drive
+//! towards smaller numbers. Here the numbers count steps of up to three cells instead of
+//! cells, because the contest counts steps. No report describes exactly this robot; it is
+//! the baseline for the robots from the reports.
 //!
-//! - *Exploring*: walls not seen yet count as open. After every reading it looks
-//!   for the fewest steps to the goal under that assumption and takes the first.
-//! - *In the goal* it resets (setting 0), or goes on exploring (setting 1): it
-//!   drives to the first unknown wall on the path of fewest steps from start to
-//!   goal, again and again, until that whole path is known to be open, or the
-//!   budget has just enough steps left for the race.
-//! - *Racing*: the fewest steps through walls known to be open.
+//! - *Exploration run*: unknown walls count as open. After every reading it finds the path
+//!   with the fewest steps to the goal and takes its first step.
+//! - *In the goal* it resets (variant 0) or continues to explore (variant 1). Variant 1
+//!   drives to the first unknown wall on the path with the fewest steps from the start to
+//!   the goal, until that whole path is known to be open, or until the remaining budget is
+//!   just enough for the speed run.
+//! - *Speed run*: the fewest steps through walls known to be open.
 //!
-//! Between paths of equal length it prefers to drive on straight, then right, then
-//! left, then backwards, and longer drives to shorter ones.
+//! Between paths of equal length it prefers to drive straight, then right, then left, then
+//! backwards, and prefers long moves to short ones.
 //!
-//! It reaches the goal wherever that is possible within the budget: it only stays
-//! away from walls it has seen, and every detour has taught it one. When the goal
-//! turns out to be walled in, it turns on the spot until the budget is used up.
+//! The robot reaches the goal wherever that is possible within the budget: it avoids only
+//! walls that it has seen, and every detour teaches it one. If the goal turns out to be
+//! walled in, it turns on the spot until the budget is used up.
 //!
-//! Settings: 0 resets in the goal, 1 explores until the best path is certain.
+//! Variants: 0 resets in the goal; 1 explores until the best path is certain.
 
 use wasmouse_sdk::{
     Action, Briefing, CellSet, Doubt, Hop, Map, Pose, Robot, Run, Search, Sensors, Tracker, Turn,
@@ -44,10 +44,10 @@ export_robot!(Flood);
 
 impl Robot for Flood {
     fn start(briefing: &Briefing) -> Self {
-        let explores_on = match briefing.setting {
+        let explores_on = match briefing.variant {
             0 => false,
             1 => true,
-            _ => panic!("flood has the settings 0 and 1"),
+            _ => panic!("flood has the variants 0 and 1"),
         };
         Self {
             tracker: Tracker::new(briefing),
@@ -159,12 +159,12 @@ mod tests {
         contest_figures::check::<Flood>(&expected);
     }
 
-    /// The smallest budget that is enough for setting 0 is enough for setting 1.
+    /// The smallest budget that is enough for variant 0 is enough for variant 1.
     #[test]
     fn stops_exploring_in_time() {
         for (budget, expected) in [(52, "finished 31 + 21: 22.033"), (51, "goal seen 31 + 20")] {
             let options = PlayOptions {
-                setting: 1,
+                variant: 1,
                 budget,
                 ..PlayOptions::default()
             };
@@ -189,10 +189,10 @@ mod tests {
     }
 
     #[test]
-    #[should_panic(expected = "settings 0 and 1")]
-    fn an_unknown_setting() {
+    #[should_panic(expected = "variants 0 and 1")]
+    fn an_unknown_variant() {
         Flood::start(&Briefing {
-            setting: 2,
+            variant: 2,
             ..Briefing::contest(12)
         });
     }

@@ -1,65 +1,63 @@
 //! Lobato's A* robots: straight to the goal, there and back, and the key-point swing.
 //!
-//! What the report says (sections 3.2 and 3.3): the robot always drives to one cell,
-//! by an A* that starts again at every step, with walls not seen yet counted as open;
-//! *exploring* means going to one cell after the other; then it resets, and run 2 is
-//! the same A* to the goal, on the map that run 1 has left behind. Its excerpts show:
+//! From the report (sections 3.2 and 3.3): the robot always drives to one cell, by an A* that
+//! starts again in every step and treats unknown walls as open. *Exploring* means going to one
+//! cell after the other; then it resets, and the speed run is the same A* to the goal, with
+//! the map from the exploration run. Its excerpts show:
 //!
-//! - the goal is one cell, the top left one of the room (`maze_dim / 2 - 1`,
-//!   `maze_dim / 2`);
-//! - A* counts cells, not steps; its heuristic is the Manhattan distance;
-//! - a list `[f, g, x, y]` for each open cell: the way so far and the heuristic, the
-//!   way so far, column, row. A list of lists is sorted by its items from the first,
-//!   so among equal `f` the cell nearer to the robot is gone on from;
-//! - a cell is opened once, from wherever it is met first, and gets the next number;
-//!   neighbours are opened in the order up, left, down, right;
-//! - the way is built in reverse, from the target to the neighbour with the smallest
-//!   number; its first straight stretch, of up to three cells, is the move (the
-//!   "intensity"); where the stretch leads behind the robot it drives backwards;
-//! - the cells of the final solution, in this order: goal, upper left corner, lower
-//!   right, goal, upper right, goal, start, and the goal once more, where it resets.
+//! - The goal is one cell, the top left one of the room (`maze_dim / 2 - 1`, `maze_dim / 2`).
+//! - A* counts cells, not steps. Its heuristic is the Manhattan distance.
+//! - Each open cell is a list `[f, g, x, y]`: path so far plus heuristic, path so far, column,
+//!   row. Python compares lists item by item, so among equal `f` the cell nearer to the robot
+//!   is expanded first.
+//! - A cell is opened once, from wherever it is reached first, and gets the next number.
+//!   Neighbours are opened in the order up, left, down, right.
+//! - The path is built backwards, from the target to the neighbour with the smallest number.
+//!   Its first straight stretch, of up to three cells, is the move (the "intensity"). If the
+//!   stretch leads behind the robot, it drives backwards.
+//! - The cells of the final solution, in order: goal, upper left corner, lower right, goal,
+//!   upper right, goal, start, and the goal once more, where it resets.
 //!
-//! The last of these contradicts the text, which lets run 2 begin at the start. In
-//! the code, the comparison of the list `self.goal` with the tuple `(0,0)` is never
-//! equal, so the start is a key point like the others, and `run == 7` sends the robot
-//! on to the goal. This robot follows the code, because with that last drive it finds
-//! the best path of maze 01, as the report's does (17 steps), and without it does not
-//! (24 steps). It is also as the report says that the third corner makes all three
-//! scores a little worse than two corners.
+//! The last point contradicts the text, in which the speed run begins at the start. In the
+//! code, the comparison of the list `self.goal` with the tuple `(0,0)` is never equal, so the
+//! start is a key point like the others, and `run == 7` sends the robot on to the goal. This
+//! robot follows the code: with that last drive it finds the best path of maze 01, as the
+//! report's robot does (17 steps), and without it does not (24 steps). As the report says, the
+//! third corner makes all three scores a little worse than two corners.
 //!
-//! What it leaves open, and what was chosen here:
+//! What the report leaves open:
 //!
-//! - *Fewer corners* leave out the last ones: with two, goal, upper left, lower right,
-//!   goal, start, goal; with one, goal, upper left, goal, start, goal.
+//! - *Fewer corners* omit the last ones: with two, goal, upper left, lower right, goal, start,
+//!   goal; with one, goal, upper left, goal, start, goal.
 //! - *There and back* resets at the start, as the text says; its code is not printed.
-//! - *The list is sorted*: the line before `pop` is not printed. Sorted like this, the
-//!   report's count expansion (this A* without a heuristic) gets the 33, 56 and 75
-//!   steps that the report has for run 1 in the three mazes.
-//! - *Walls have two sides*: the excerpt marks a wall only in the cell that it was seen
-//!   from. Marked like that, the count expansion gets all six figures of the report,
-//!   run 2 too; but the swing then needs 26 steps for run 2 of maze 01, and the report
-//!   says that it found the best path. So its final robot probably knew both sides.
-//! - *The heuristic* of the excerpt forgets the row distance in row 0 and the column
-//!   distance in column 0, where its loops begin at 1. That would cost the best path
-//!   of maze 01 (20 steps), and the text says distance, so it is not done.
-//! - *Behind the robot* an unknown wall is looked at first.
-//! - *Going in circles*: numbers are no distances, so a robot that starts its A* again
-//!   in every cell may come back to a cell without having learned anything. Then it
-//!   drives by the count expansion, whose ways get shorter with every step, until it
-//!   has seen a new wall or reached the cell. It has not happened yet: not in 260
-//!   mazes of competitions, 1,000 generated ones and 12,000 of random walls.
-//! - *A corner that cannot be reached* is left out; instead of a goal cell that cannot
-//!   be reached it takes any other.
-//! - *The budget*: run 1 ends when the 1000 steps have just enough left for the race
-//!   through walls known to be open, and run 2 drives by fewest steps when it has none
-//!   to spare. So it finishes wherever it has reached the goal in time.
+//! - *The list is sorted*: the line before `pop` is not printed. With this order, the report's
+//!   count expansion (this A* without a heuristic) gets the report's 33, 56 and 75 exploration
+//!   steps in the three mazes.
+//! - *Walls have two sides*: the excerpt marks a wall only in the cell from which it was seen.
+//!   With such marks, the count expansion gets all six figures of the report, including the
+//!   speed runs; but the swing then needs 26 steps for the speed run of maze 01, and the
+//!   report says that it found the best path. So its final robot probably knew both sides.
+//! - *The heuristic* of the excerpt ignores the row distance in row 0 and the column distance
+//!   in column 0, because its loops begin at 1. That would cost the best path of maze 01 (20
+//!   steps), and the text says distance, so this robot does not do it.
+//! - *Behind the robot*: an unknown wall is looked at first.
+//! - *Circles*: numbers are not distances, so a robot that restarts its A* in every cell may
+//!   return to a cell without having learned anything. It then drives by the count expansion,
+//!   whose paths get shorter with every step, until it sees a new wall or reaches the cell.
+//!   This has not happened yet: not in 260 competition mazes, 1,000 generated mazes and 12,000
+//!   mazes of random walls.
+//! - *A corner that cannot be reached* is skipped. If the goal cell cannot be reached, the
+//!   robot takes any other.
+//! - *The budget*: the exploration run ends when the remaining steps are just enough for the
+//!   speed run through walls known to be open, and the speed run takes the fewest steps when
+//!   it has none to spare. So the robot finishes wherever it has reached the goal in time.
 //!
-//! The results, steps of run 1 with the reset + steps of run 2. The report's own are
-//! in figures that its text lacks; it says that arriving explores little and scores
-//! badly, that coming back is better, and the swing better still. Here coming back is
+//! Results, as exploration steps (including the reset) + speed steps: score. The report shows
+//! its own only in figures, which its text lacks. It says that arriving explores little and
+//! scores badly, that coming back is better, and the swing better still. Here coming back is
 //! better on average, but a little worse in maze 02.
 //!
-//! | setting | maze 01 | maze 02 | maze 03 |
+//! | variant | maze 01 | maze 02 | maze 03 |
 //! |---|---|---|---|
 //! | arrive | 32 + 31: 32.067 | 55 + 47: 48.833 | 75 + 48: 50.500 |
 //! | return | 78 + 24: 26.600 | 90 + 48: 51.000 | 127 + 36: 40.233 |
@@ -67,8 +65,8 @@
 //! | swing-2 | 131 + 17: 21.367 | 183 + 28: 34.100 | 214 + 29: 36.133 |
 //! | swing-3 | 149 + 17: 21.967 | 199 + 28: 34.633 | 248 + 29: 37.267 |
 //!
-//! Settings: 0 is `swing-3`, the final solution; 1 `arrive`, 2 `return`, 3 `swing-1`,
-//! 4 `swing-2`.
+//! Variants: 0 is `swing-3`, the final solution; 1 `arrive`, 2 `return`, 3 `swing-1`, 4
+//! `swing-2`.
 
 use wasmouse_sdk::{
     Action, Briefing, Cell, CellSet, Expansion, Hop, Map, News, Robot, Run, Search, Sensors,
@@ -82,7 +80,7 @@ pub struct Lobato {
     /// The goal cell of the report.
     favourite: Cell,
     goal: CellSet,
-    /// The cells to go to in run 1, the next one last.
+    /// The cells to go to in the exploration run, the next one last.
     key_points: Vec<Cell>,
     /// Where it has stood, on the way to the same cell, since it last saw a new wall.
     stood: CellSet,
@@ -124,14 +122,14 @@ impl Robot for Lobato {
     }
 }
 
-/// The cells to go to in run 1, backwards.
+/// The cells to go to in the exploration run, backwards.
 fn key_points(briefing: &Briefing, goal: Cell) -> Vec<Cell> {
     let start = briefing.start;
     let last = briefing.dimension - 1;
     let upper_left = Cell::new(0, last);
     let lower_right = Cell::new(last, 0);
     let upper_right = Cell::new(last, last);
-    let mut points = match briefing.setting {
+    let mut points = match briefing.variant {
         0 => vec![
             goal,
             upper_left,
@@ -146,7 +144,7 @@ fn key_points(briefing: &Briefing, goal: Cell) -> Vec<Cell> {
         2 => vec![goal, start],
         3 => vec![goal, upper_left, goal, start, goal],
         4 => vec![goal, upper_left, lower_right, goal, start, goal],
-        _ => panic!("lobato has the settings 0 to 4"),
+        _ => panic!("lobato has the variants 0 to 4"),
     };
     points.reverse();
     points
@@ -162,7 +160,7 @@ impl Lobato {
             if let Some(hop) = self.hop_to(point) {
                 return self.drive(hop);
             }
-            // It stands there, or there is no way.
+            // It stands there, or there is no path.
             self.key_points.pop();
             self.forget_the_way();
         }
@@ -188,11 +186,11 @@ impl Lobato {
     }
 
     /// Whether the goal can be reached through walls known to be open even after one
-    /// step to a worse place. Without an answer, searches for that way.
+    /// step to a worse place. Without an answer, searches for that path.
     fn can_spare_a_step(&mut self) -> bool {
         let left = self.tracker.steps_left();
         if left > self.tracker.briefing().dimension.pow(2) + 1 {
-            // No way is longer than that.
+            // No path is longer than that.
             return true;
         }
         let known = self.tracker.map().passages(View::Pessimistic);
@@ -217,7 +215,7 @@ impl Lobato {
         self.goes_in_circles = false;
     }
 
-    /// The first stretch of the way to that cell; `None` when there is no way, or no
+    /// The first stretch of the path to that cell; `None` when there is no path, or no
     /// need for one. For the goal cell of the report, any other will do.
     fn hop_to(&mut self, point: Cell) -> Option<Hop> {
         let here = self.tracker.cell();
@@ -265,7 +263,7 @@ mod tests {
     use wasmouse_sdk::testing::{self, MAZE_01, PlayOptions, Played};
     use wasmouse_sdk::{Area, Heading};
 
-    const SETTINGS: [u32; 5] = [0, 1, 2, 3, 4];
+    const VARIANTS: [u32; 5] = [0, 1, 2, 3, 4];
 
     fn play(maze: &str, options: &PlayOptions) -> Played {
         let played = testing::play::<Lobato>(maze, options);
@@ -325,10 +323,10 @@ mod tests {
     /// Whatever the budget is: once the goal is seen there is time to finish.
     #[test]
     fn stops_exploring_in_time() {
-        for setting in SETTINGS {
+        for variant in VARIANTS {
             for budget in (70..200).step_by(9) {
                 let options = PlayOptions {
-                    setting,
+                    variant,
                     budget,
                     ..PlayOptions::default()
                 };
@@ -338,13 +336,13 @@ mod tests {
         }
     }
 
-    /// The smallest budget: run 1 as far as the goal, the reset, and not a step to
-    /// spare in run 2. The A* would need 31 steps there.
+    /// The smallest budget: the exploration run as far as the goal, the reset, and not a step to
+    /// spare in the speed run. The A* would need 31 steps there.
     #[test]
     fn races_over_known_walls_without_a_step_to_spare() {
         for (budget, expected) in [(52, "finished 32 + 20: 21.067"), (51, "goal seen 32 + 19")] {
             let options = PlayOptions {
-                setting: 1,
+                variant: 1,
                 budget,
                 ..PlayOptions::default()
             };
@@ -394,13 +392,13 @@ mod tests {
     #[test]
     fn corners_and_a_goal_cell_that_are_walled_in() {
         let maze = "4\n1,5,5,4\n0,0,0,0\n0,0,0,0\n0,0,0,0";
-        for (setting, expected) in [
+        for (variant, expected) in [
             (0, "finished 7 + 1: 1.233"),
             (1, "finished 2 + 1: 1.067"),
             (2, "finished 3 + 1: 1.100"),
         ] {
             let options = PlayOptions {
-                setting,
+                variant,
                 goal: Some(Area::new(Cell::new(0, 1), 2, 2)),
                 ..PlayOptions::default()
             };
@@ -411,8 +409,8 @@ mod tests {
     #[test]
     fn a_goal_that_is_walled_in() {
         let maze = "3\n1,5,4\n0,0,0\n0,0,0";
-        for setting in SETTINGS {
-            let options = PlayOptions::of_setting(setting);
+        for variant in VARIANTS {
+            let options = PlayOptions::of_variant(variant);
             testing::check::<Lobato>(maze, &options, "goal not seen 1000 + 0");
         }
     }
@@ -420,7 +418,7 @@ mod tests {
     #[test]
     fn a_goal_behind_the_start() {
         let options = PlayOptions {
-            setting: 1,
+            variant: 1,
             start: Cell::new(0, 11),
             goal: Some(Area::new(Cell::new(0, 2), 1, 1)),
             ..PlayOptions::default()
@@ -429,10 +427,10 @@ mod tests {
     }
 
     #[test]
-    #[should_panic(expected = "settings 0 to 4")]
-    fn an_unknown_setting() {
+    #[should_panic(expected = "variants 0 to 4")]
+    fn an_unknown_variant() {
         Lobato::start(&Briefing {
-            setting: 5,
+            variant: 5,
             ..Briefing::contest(12)
         });
     }

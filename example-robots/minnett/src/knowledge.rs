@@ -1,9 +1,9 @@
 //! The wall map and the uncertainty map: [`Knowledge`].
 //!
-//! Fed by readings; also infers what the rules of the contest say about cells and
-//! about the goal room. It plans nothing. Inferred walls live here and not in the
-//! tracker's map, so that in a maze that breaks the rules a wrong belief never
-//! makes the robot drive through a wall that it has not seen.
+//! It takes readings and infers what the contest rules say about cells and about the goal
+//! room; it plans nothing. Inferred walls are kept here and not in the tracker's map, so that
+//! in a maze that breaks the rules a wrong inference never makes the robot drive through a
+//! wall that it has not seen.
 
 use wasmouse_sdk::{Area, Briefing, Cell, Heading, Map, Pose, Sensors, Wall};
 

@@ -1,18 +1,17 @@
-//! The planner of Minnett's report (*Plot and Navigate a Virtual Maze*, 2016).
+//! The planner from Minnett's report (*Plot and Navigate a Virtual Maze*, 2016).
 //!
-//! What the report says: keep a wall map and, for every cell, the number of shapes
-//! that it may still have. Drive towards the nearest cell of greatest uncertainty,
-//! by Dijkstra's algorithm over steps in which unknown walls count as open, never
-//! past a cell whose shape is not known. Take two steps of each path, unless a wall
-//! shows up. Infer the goal room from its entrance or from seven walls; as soon as
-//! the entrance is known, go there. When the best path through known openings is as
-//! long as the best path that may exist, reset and race along it. To break loops,
-//! look for a path of 2 to 6 nodes driven there, back and there again, and then
-//! take an additional step.
+//! From the report: keep a wall map and, forevery cell, the number of shapes that it may
+//! still have. Drive towards the nearest cell of greatest uncertainty, by Dijkstra's algorithm
+//! over steps in which unknown walls count as open, but never past a cell of unknown shape.
+//! Take two steps of each path unless a wall shows up. Infer the goal room from its entrance
+//! or from seven walls; once the entrance is known, go there. When the best path through known
+//! openings is as long as the best path that may exist, reset and take it. To break loops,
+//! look for a path of 2 to 6 nodes driven there, back and there again, and then take an
+//! additional step.
 //!
-//! Settings: 1 to 4 and then 0 are the rows of his table, each with what came before.
+//! Variants: 1 to 4 and then 0 are the rows of his table, each including the ones before it.
 //!
-//! | | setting | maze 01 | maze 02 | maze 03 | his figures |
+//! | | variant | maze 01 | maze 02 | maze 03 | his figures |
 //! |---|---|---|---|---|---|
 //! | 1 | first working version | 24.167 | 32.000 | 37.900 | 26.700, 31.400, 34.567 |
 //! | 2 | take second step | 23.667 | 33.833 | 38.000 | 23.633, 34.033, 34.467 |
@@ -20,45 +19,44 @@
 //! | 4 | simplify uncertainties | 20.667 | 28.567 | 31.767 | the same |
 //! | 0 | break recursive loops | 20.667 | 28.567 | 31.767 | the same |
 //!
-//! What the report leaves open, and what was chosen here. Where the public program
-//! of the report shows what it does, that was taken; it is what makes the figures of
-//! the last three rows exact.
+//! What the report leaves open. Where the report's public program shows what it does, this
+//! robot does the same, which makes the figures of the last three rows exact.
 //!
-//! - *Nearest* is as the crow flies; of equal peaks the leftmost is taken, then the
-//!   lowest. By path cost the last row would be 20.700, 29.333, 31.733.
-//! - *Path cost* is steps, and nothing else: turns are free and a drive backwards is
-//!   as good as one forwards. Of equal paths, the one built from the target over the
-//!   first neighbour in the order right, up, left, down, the nearest cell first.
-//! - *Scaling* (settings 1 to 3): the report multiplies by the radius, its program
-//!   also by the smaller uncertainty found there, and rings that touch the perimeter
-//!   are not looked at. With the radius alone row 3 is 21.900 instead of 21.233.
-//! - *The goal* is no target before its entrance is known; then its cell behind the
-//!   entrance is. Afterwards the peaks are targets again.
-//! - *Uncertainties* are 2 to the power of the unknown walls, less the shape that is
-//!   closed all around; never more than the report's initial 15, 7, 2 and 3.
-//! - *The wrong path costs* of the first versions (settings 1 and 2): the report says
-//!   that unvisited nodes were taken in a wrong order; in its program that is the
-//!   order of a Python dictionary. Here the last in the order of rows is taken; by
-//!   columns setting 2 would be 23.933, 32.533, 32.367. Such paths are used everywhere
-//!   in these settings, so their race may not be optimal.
+//! - *Nearest* means straight-line distance. Of equal peaks it takes the leftmost, then the
+//!   lowest. With path costs the last row would be 20.700, 29.333, 31.733.
+//! - *Path cost* is the number of steps and nothing else: turns are free, and driving
+//!   backwards is as good as forwards. Of equal paths it takes the one built from the target
+//!   over the first neighbour in the order right, up, left, down, the nearest cell first.
+//! - *Scaling* (variants 1 to 3): the report multiplies by the radius. Its program also
+//!   multiplies by the smaller uncertainty found there, and skips rings that touch the
+//!   perimeter. With the radius alone row 3 is 21.900 instead of 21.233.
+//! - *The goal* is no target before its entrance is known; then the cell behind the entrance
+//!   is. Afterwards the peaks are targets again.
+//! - *Uncertainties* are 2 to the power of the number of unknown walls, less the shape that is
+//!   closed on all sides, and never more than the report's initial 15, 7, 2 and 3.
+//! - *The wrong path costs* of the first versions (variants 1 and 2): the report says that
+//!   unvisited nodes were taken in a wrong order; in its program that is the order of a Python
+//!   dictionary. Here it is the last node in row order; by columns, variant 2 would be 23.933,
+//!   32.533, 32.367. These variants use such paths everywhere, so their speed run may not be
+//!   optimal.
 //! - *An additional step* is one: the third of the path.
-//! - *What is behind* cannot be sensed. Before it drives backwards through a wall
-//!   that it has not seen, or when the target is its own cell, the robot turns right.
+//! - *Behind the robot* nothing can be sensed. Before it drives backwards through a wall that
+//!   it has not seen, or when the target is its own cell, the robot turns right.
 //!
-//! His robot looped for ever in 17 of 500 mazes. This one has a guard of its own, in
-//! all settings: when it has to plan for the third time in the same pose without
-//! having learnt anything, or has not found the goal when half of the budget is gone,
-//! it drives as the flood robot does (to the goal, then to the first wall in doubt on
-//! the best path that may exist) until it sees something new. Every take-over is
-//! said in the journal. It resets in time to race within the budget.
+//! His robot looped forever in 17 of 500 mazes. This one has a safeguard in all variants: if
+//! it has to plan for the third time in the same pose without having learned anything, or has
+//! not found the goal when half of the budget is used, it drives as the flood robot does (to
+//! the goal, then to the first unknown wall on the best path that may exist) until it sees
+//! something new. It logs every time the safeguard takes over. It resets in time for the
+//! speed run.
 //!
-//! His robot beats optimum + n*n/30 in 420 of 500 generated mazes, by 2.77 on average:
-//! in 86.96 % of the 483 that it finished. In 10,000 mazes of the kind `stretches`,
-//! made as his program makes them, setting 0 finishes all and beats it in 84.9 %, by
-//! 2.63; in the 9,851 in which the guard does not take over, in 85.4 %, by 2.67. The
-//! mazes of the kind `division`, made as his report describes them, have longer ways
-//! to the goal (16.1 steps at 16 x 16 instead of 10.7): 76.6 % of 500, by 2.07. What
-//! it is in the mazes of the study stands in `docs/REFERENCE.md`.
+//! His robot beats optimum + n*n/30 in 420 of 500 generated mazes, by 2.77 on average in the
+//! 483 that it finished. In 10,000 mazes of the kind `stretches`, generated as his program
+//! does, variant 0 finishes all and beats that score in 84.9 %, by 2.63; in the 9,851 in which
+//! the safeguard does not take over, in 85.4 %, by 2.67. Mazes of the kind `division`,
+//! generated as his report describes, have longer paths to the goal (16.1 steps at 16 x 16
+//! instead of 10.7): 76.6 % of 500, by 2.07. `docs/REFERENCE.md` has the results in the mazes
+//! of the study.
 
 mod knowledge;
 mod loops;
@@ -91,12 +89,12 @@ struct Stage {
 }
 
 impl Stage {
-    fn new(setting: u32) -> Self {
+    fn new(variant: u32) -> Self {
         // In the order of the report's table.
-        let row = match setting {
+        let row = match variant {
             0 => 5,
-            1..=4 => setting,
-            _ => panic!("minnett has the settings 0 to 4"),
+            1..=4 => variant,
+            _ => panic!("minnett has the variants 0 to 4"),
         };
         Self {
             order: if row < 3 {
@@ -134,7 +132,7 @@ export_robot!(Minnett);
 
 impl Robot for Minnett {
     fn start(briefing: &Briefing) -> Self {
-        let stage = Stage::new(briefing.setting);
+        let stage = Stage::new(briefing.variant);
         Self {
             tracker: Tracker::new(briefing),
             knowledge: Knowledge::new(briefing),
@@ -180,7 +178,7 @@ impl Robot for Minnett {
 }
 
 impl Minnett {
-    /// One step of run 1.
+    /// One step of the exploration run.
     fn explore(&mut self) -> Action {
         let is_late = self.is_late();
         if is_late && !self.is_late_said {
@@ -282,7 +280,7 @@ impl Minnett {
         self.steps.path(graph, cheapest)
     }
 
-    /// One step of run 2: the path that was found, or, where there is none, the fewest
+    /// One step of the speed run: the path that was found, or, where there is none, the fewest
     /// steps through walls that have been seen to be open.
     fn race(&mut self) -> Action {
         let hop = self.plan.pop_front().or_else(|| {

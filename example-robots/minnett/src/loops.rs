@@ -1,4 +1,4 @@
-//! Going round in circles: the report's test for it, and a stronger one.
+//! Detects loops: the report's test, and a stronger one.
 
 use wasmouse_sdk::{Cell, Pose};
 

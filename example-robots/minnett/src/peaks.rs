@@ -1,4 +1,4 @@
-//! Where the robot knows least: [`nearest_peak`].
+//! Where the map is most uncertain: [`nearest_peak`].
 
 use wasmouse_sdk::{Area, Cell};
 

@@ -1,8 +1,7 @@
 //! Dijkstra's algorithm over steps: [`Steps`].
 //!
-//! The graph is implicit: its nodes are cells, its edges the straight drives of one
-//! step through walls that a view leaves open. The robot's two views of the maze
-//! and its peaks are none of its business.
+//! The graph is implicit: its nodes are cells, and its edges are the moves of one step through
+//! walls that a view leaves open. It does not know the two views of the maze or the peaks.
 
 use std::collections::{BTreeSet, VecDeque};
 

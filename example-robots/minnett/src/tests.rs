@@ -1,4 +1,4 @@
-//! Whole matches: the figures of all settings, and mazes that break the rules.
+//! Whole matches: the figures of all variants, and mazes that break the rules.
 
 use super::*;
 use wasmouse_sdk::testing::{self, MAZE_01, PlayOptions};
@@ -29,16 +29,16 @@ fn contest_mazes() {
 /// With a budget that is too short for the proof it resets in time.
 #[test]
 fn stops_exploring_in_time() {
-    for setting in 0..5 {
+    for variant in 0..5 {
         let play = |budget| {
             let options = PlayOptions {
-                setting,
+                variant,
                 budget,
                 ..PlayOptions::default()
             };
             testing::play::<Minnett>(MAZE_01, &options)
         };
-        assert!((100..150).all(|budget| play(budget).finished), "{setting}");
+        assert!((100..150).all(|budget| play(budget).finished), "{variant}");
     }
 }
 
@@ -69,10 +69,10 @@ fn two_entrances() {
 }
 
 #[test]
-#[should_panic(expected = "settings 0 to 4")]
-fn an_unknown_setting() {
+#[should_panic(expected = "variants 0 to 4")]
+fn an_unknown_variant() {
     Minnett::start(&Briefing {
-        setting: 5,
+        variant: 5,
         ..Briefing::contest(12)
     });
 }

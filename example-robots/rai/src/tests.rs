@@ -14,7 +14,7 @@ fn play(maze: &str, options: &PlayOptions) -> Played {
 
 /// The table of the crate's documentation.
 #[test]
-fn contest_mazes_in_all_settings() {
+fn contest_mazes_in_all_variants() {
     let expected = [
         (1, 0, "finished 139 + 17: 21.633"),
         (2, 0, "finished 220 + 28: 35.333"),
@@ -53,7 +53,7 @@ fn the_traversal_grid_of_maze_01() {
         [1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0],
         [1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0],
     ];
-    let played = play(MAZE_01, &PlayOptions::of_setting(0));
+    let played = play(MAZE_01, &PlayOptions::of_variant(0));
     let mut counts = [[0; 12]; 12];
     for stop in played.stops.iter().filter(|it| it.run == 1) {
         counts[stop.cell.x as usize][stop.cell.y as usize] += 1;
@@ -71,7 +71,7 @@ fn the_traversal_grid_of_maze_01() {
     assert!(marked.iter().eq(dead_ends));
 }
 
-/// Figures 9 and 10: where the robot stands before each step of the race in maze 02.
+/// Figures 9 and 10: where the robot stands before each step of the speed run in maze 02.
 #[test]
 fn the_races_of_maze_02() {
     let figure_9 = "0,0 0,3 0,4 1,4 1,7 1,8 0,8 0,9 1,9 1,10 0,10 0,13 3,13 3,11 4,11 4,12 \
@@ -83,14 +83,14 @@ fn the_races_of_maze_02() {
         return;
     };
     for (value, figure) in [(0, figure_9), (2, figure_10)] {
-        let played = play(maze, &PlayOptions::of_setting(value));
+        let played = play(maze, &PlayOptions::of_variant(value));
         let race: Vec<String> = played
             .stops
             .iter()
             .filter(|it| it.run == 2)
             .map(|it| format!("{},{}", it.cell.x, it.cell.y))
             .collect();
-        assert_eq!(race.join(" "), figure, "setting {value}");
+        assert_eq!(race.join(" "), figure, "variant {value}");
     }
 }
 
@@ -98,7 +98,7 @@ fn the_races_of_maze_02() {
 fn the_first_version_rolls_dice() {
     let seeds = [1, 2].map(|seed| PlayOptions {
         seed,
-        ..PlayOptions::of_setting(4)
+        ..PlayOptions::of_variant(4)
     });
     let [one, two] = seeds.map(|it| play(MAZE_01, &it));
     assert!(one.finished && two.finished);
@@ -112,16 +112,16 @@ fn stops_exploring_in_time() {
         for budget in 60..400 {
             let options = PlayOptions {
                 budget,
-                ..PlayOptions::of_setting(value)
+                ..PlayOptions::of_variant(value)
             };
             let played = play(MAZE_01, &options);
             assert!(
                 played.finished || !played.goal_seen,
-                "setting {value}, budget {budget}"
+                "variant {value}, budget {budget}"
             );
             finished += u32::from(played.finished);
         }
-        assert!(finished > 300, "setting {value}: {finished} finished");
+        assert!(finished > 300, "variant {value}: {finished} finished");
     }
 }
 
@@ -141,10 +141,10 @@ fn looks_behind_a_start_in_the_middle() {
         let options = PlayOptions {
             start: Cell::new(1, 7),
             goal: Some(Area::new(Cell::new(0, 0), 1, 1)),
-            ..PlayOptions::of_setting(value)
+            ..PlayOptions::of_variant(value)
         };
         let played = play(MAZE_01, &options);
-        assert!(played.finished, "setting {value}: {}", played.summary());
+        assert!(played.finished, "variant {value}: {}", played.summary());
     }
 }
 
@@ -152,16 +152,16 @@ fn looks_behind_a_start_in_the_middle() {
 fn a_goal_that_is_walled_in() {
     let maze = "3\n1,5,4\n0,0,0\n0,0,0";
     for value in 0..5 {
-        let played = play(maze, &PlayOptions::of_setting(value));
+        let played = play(maze, &PlayOptions::of_variant(value));
         assert_eq!(played.summary(), "goal not seen 1000 + 0");
     }
 }
 
 #[test]
-#[should_panic(expected = "settings 0 to 4")]
-fn an_unknown_setting() {
+#[should_panic(expected = "variants 0 to 4")]
+fn an_unknown_variant() {
     Rai::start(&Briefing {
-        setting: 5,
+        variant: 5,
         ..Briefing::contest(12)
     });
 }

@@ -1,6 +1,6 @@
-//! The report's dynamic programming for run 2: [`ValueTable`].
+//! The report's dynamic programming for the speed run: [`ValueTable`].
 //!
-//! Values are cells to the goal, not steps; only the race joins cells into steps.
+//! Values count cells to the goal, not steps; the speed run then joins cells into steps.
 
 use wasmouse_sdk::{Area, Briefing, Cell, CellSet, Heading, Hop, Map, Passages, Search, Wall};
 
@@ -39,7 +39,7 @@ impl ValueTable {
     }
 
     /// The straight stretch of the policy from `cell`, cut to what one step can
-    /// drive; `None` in the goal and where there is no way.
+    /// drive; `None` in the goal and where there is no path.
     pub fn hop(&self, cell: Cell) -> Option<Hop> {
         let heading = self.policy(cell)?;
         let mut end = cell;
@@ -51,7 +51,7 @@ impl ValueTable {
         Some(Hop { heading, cells })
     }
 
-    /// Steps of the race from `start`; `None` where there is no way.
+    /// Steps of the speed run from `start`; `None` where there is no path.
     pub fn race(&self, start: Cell) -> Option<u32> {
         let mut cell = start;
         let mut steps = 0;

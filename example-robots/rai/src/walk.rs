@@ -1,7 +1,7 @@
-//! Where to go while exploring, from cell to cell: [`Walk`].
+//! Where to go in the exploration run, cell by cell: [`Walk`].
 //!
-//! It keeps the report's traversal grid and its marks of dead ends. It knows
-//! neither the budget nor when to stop.
+//! It keeps the report's traversal grid and marks of dead ends. It does not know the budget or
+//! when to stop.
 
 use wasmouse_sdk::journal::{self, Color};
 use wasmouse_sdk::{Area, Cell, CellSet, Heading, Map, Pose, Random, Turn, Wall};

@@ -1,21 +1,22 @@
-//! Lobato's random walk, the benchmark of his report: the robot to be beaten.
+//! Lobato's random walk, the first benchmark of his report.
 //!
-//! What the report says: an agent that makes just random moves; of six tries in
-//! maze 01 three reached the goal (after 317, 361 and 897 steps) and one finished
-//! both runs within 1000 steps, with a score of 584.067.
+//! From the report: the agent makes random moves. Of six tries in maze 01, three reached the
+//! goal (after 317, 361 and 897 steps) and one finished both runs within 1000 steps, with a
+//! score of 584.067.
 //!
-//! What it leaves open, and what was chosen here: a random move turns to one of the
-//! directions left, ahead and right that are open, each equally likely, and drives
-//! 1 cell up to the longest move or the nearest wall, each equally likely. In a dead
-//! end it turns left on the spot. It resets in the goal, and walks at random again.
+//! The report leaves open what a random move is. Here, the robot picks one of the open
+//! directions among left, ahead and right, and a distance from 1 cell to the longest move or
+//! the nearest wall, all with equal probability. In a dead end it turns left on the spot. It
+//! resets in the goal and then walks at random again.
 //!
-//! In maze 01 that reaches the goal with 720 of the seeds 0 to 999 (half of these
-//! within 374 steps) and finishes with 337, about as often as his six tries. Moves
-//! in any direction, open or not, would reach it with fewer than 200 seeds.
+//! In maze 01, 720 of the seeds 0 to 999 reach the goal (half of them within 374 steps) and
+//! 337 finish, about as often as in the report's six tries. With moves in any direction, open
+//! or not, fewer than 200 seeds would reach it.
 //!
-//! Chance comes from the seed of the briefing alone, by SplitMix64 ([`Random`]).
+//! The seed of the briefing is the only source of randomness, expanded by SplitMix64
+//! ([`Random`]).
 //!
-//! Settings: only 0.
+//! Variants: only 0.
 
 use wasmouse_sdk::{Action, Area, Briefing, Pose, Random, Robot, Sensors, Turn, export_robot};
 
@@ -34,8 +35,8 @@ export_robot!(RandomWalk);
 impl Robot for RandomWalk {
     fn start(briefing: &Briefing) -> Self {
         assert!(
-            briefing.setting == 0,
-            "the random walk has the setting 0 only"
+            briefing.variant == 0,
+            "the random walk has the variant 0 only"
         );
         let start = Pose::at_start(briefing.start);
         Self {
@@ -140,10 +141,10 @@ mod tests {
     }
 
     #[test]
-    #[should_panic(expected = "setting 0 only")]
-    fn an_unknown_setting() {
+    #[should_panic(expected = "variant 0 only")]
+    fn an_unknown_variant() {
         RandomWalk::start(&Briefing {
-            setting: 1,
+            variant: 1,
             ..Briefing::contest(12)
         });
     }

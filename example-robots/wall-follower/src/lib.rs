@@ -1,24 +1,22 @@
-//! The wall follower of the sketch-city report.
+//! The wall follower from the sketch-city report.
 //!
-//! What the report says (its state machine, at every intersection): go straight
-//! unless a wall is in front; then, with walls on both sides, turn around;
-//! otherwise turn to the side without a wall. It was driven along the perimeter
-//! of a small maze; the report gives no figures for a contest.
+//! From the report (its state machine, at every intersection): go straight unless there is a
+//! wall ahead; then, with walls on both sides, turn around; otherwise turn to the open side.
+//! The report drives it along the perimeter of a small maze and has no contest results.
 //!
-//! What it leaves open, and what was chosen here:
+//! What the report leaves open:
 //!
-//! - *A wall in front and none at either side*: the report's code keeps its old
-//!   state. Here the setting decides.
-//! - *Turning around*: a contest step cannot turn by 180 degrees. This robot turns
-//!   left on the spot; the rule then turns it left again and drives on, so a dead
-//!   end costs one extra step.
-//! - *How far to drive*: one cell a step, because the report looks at every cell.
-//! - *The goal*: the report has none. This robot resets in the goal and follows
-//!   the same rules again in run 2, so it repeats its way.
+//! - *A wall ahead and none at the sides*: the report's code keeps its previous state. Here
+//!   the variant decides.
+//! - *Turning around*: a step cannot turn by 180 degrees. This robot turns left on the spot,
+//!   and the rule then turns it left again and drives on, so a dead end costs one extra step.
+//! - *Distance*: one cell per step, because the report checks every cell.
+//! - *The goal*: the report has none. This robot resets in the goal and follows the same
+//!   rules again in the speed run, so it repeats its path.
 //!
-//! It remembers no walls, so it can circle for ever; then its budget runs out.
+//! The robot remembers no walls, so it can circle until its budget is used up.
 //!
-//! Settings: 0 prefers left where both sides are open, 1 prefers right.
+//! Variants: 0 prefers left where both sides are open; 1 prefers right.
 
 use wasmouse_sdk::{Action, Area, Briefing, Pose, Robot, Sensors, Turn, export_robot};
 
@@ -35,10 +33,10 @@ export_robot!(WallFollower);
 
 impl Robot for WallFollower {
     fn start(briefing: &Briefing) -> Self {
-        let preferred = match briefing.setting {
+        let preferred = match briefing.variant {
             0 => Turn::Left,
             1 => Turn::Right,
-            _ => panic!("the wall follower has the settings 0 and 1"),
+            _ => panic!("the wall follower has the variants 0 and 1"),
         };
         let start = Pose::at_start(briefing.start);
         Self {
@@ -91,9 +89,9 @@ mod tests {
     use wasmouse_sdk::Cell;
     use wasmouse_sdk::testing::{self, MAZE_01, PlayOptions};
 
-    fn play(maze: &str, setting: u32, goal: Option<Area>) -> String {
+    fn play(maze: &str, variant: u32, goal: Option<Area>) -> String {
         let options = PlayOptions {
-            setting,
+            variant,
             goal,
             ..PlayOptions::default()
         };
@@ -105,8 +103,8 @@ mod tests {
     #[test]
     fn circles_in_the_contest_mazes() {
         for (number, maze) in contest_mazes::contest_mazes() {
-            for setting in [0, 1] {
-                let summary = play(&maze, setting, None);
+            for variant in [0, 1] {
+                let summary = play(&maze, variant, None);
                 assert_eq!(summary, "goal not seen 1000 + 0", "maze {number}");
             }
         }
@@ -148,8 +146,8 @@ mod tests {
     }
 
     #[test]
-    #[should_panic(expected = "settings 0 and 1")]
-    fn an_unknown_setting() {
+    #[should_panic(expected = "variants 0 and 1")]
+    fn an_unknown_variant() {
         play(MAZE_01, 2, None);
     }
 }

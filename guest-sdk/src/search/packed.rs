@@ -1,8 +1,7 @@
 //! The search in mazes of up to 16 x 16: the whole maze is four words.
 //!
-//! A layer is then some two hundred instructions without a branch. That matters
-//! twice in WebAssembly, where every loop also counts fuel; on contest mazes it is
-//! three times as fast as going row by row.
+//! A layer takes about two hundred instructions without a branch. On contest mazes that is
+//! three times as fast as going row by row, and in WebAssembly loops also cost fuel.
 
 use crate::passages::{Bits, ROWS};
 
@@ -109,7 +108,7 @@ pub(super) struct Walls {
 }
 
 /// Spreads from `targets` until `stop` is reached or nothing new is; calls
-/// `visit(x, y, steps)` for every cell reached, and returns all of them.
+/// `visit(x, y, steps)` forevery cell reached, and returns all of them.
 pub(super) fn spread(
     walls: &Walls,
     targets: Board,

@@ -1,30 +1,30 @@
-//! One match by the rules: two runs, a budget, a score.
+//! One match by the rules: an exploration run, a speed run, a budget, a score.
 
 use std::fmt;
 
 use super::audit::MapAudit;
 use super::maze::Maze;
-use super::record::{Entry, Recorder};
+use crate::record::{Entry, Recorder};
 use crate::{Action, Area, Briefing, BudgetScope, Cell, Heading, Move, Pose, Robot, Sensors};
 
-/// How to play; the default is the ruleset `udacity` with seed 0 and setting 0.
+/// How to play. The default is the ruleset `udacity` with seed 0 and variant 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlayOptions {
     /// The seed of the briefing.
     pub seed: u64,
-    /// The setting of the briefing.
-    pub setting: u32,
+    /// The variant of the briefing.
+    pub variant: u32,
     /// Steps the robot may take, at least 1. Default: 1000.
     pub budget: u32,
-    /// Whether both runs share the budget. Default: they do.
+    /// Whether the runs share the budget. Default: they do.
     pub budget_scope: BudgetScope,
     /// The longest move, in cells. Default: 3.
     pub longest_move: u32,
-    /// What run 1 is divided by in the score, at least 1. Default: 30.
+    /// Divides the steps of the exploration run in the score; at least 1. Default: 30.
     pub exploration_divisor: u32,
     /// Where both runs start. Default: (0, 0).
     pub start: Cell,
-    /// The goal; `None` for the room in the centre, the default.
+    /// The goal; `None`, the default, is the room in the centre.
     pub goal: Option<Area>,
 }
 
@@ -32,7 +32,7 @@ impl Default for PlayOptions {
     fn default() -> Self {
         Self {
             seed: 0,
-            setting: 0,
+            variant: 0,
             budget: 1000,
             budget_scope: BudgetScope::BothRuns,
             longest_move: 3,
@@ -44,16 +44,16 @@ impl Default for PlayOptions {
 }
 
 impl PlayOptions {
-    /// The default with a setting, for robots that have several.
+    /// The default with another variant.
     ///
     /// ```
     /// use wasmouse_sdk::testing::PlayOptions;
-    /// let options = PlayOptions { budget: 50, ..PlayOptions::of_setting(2) };
-    /// assert_eq!((options.setting, options.seed), (2, 0));
+    /// let options = PlayOptions { budget: 50, ..PlayOptions::of_variant(2) };
+    /// assert_eq!((options.variant, options.seed), (2, 0));
     /// ```
-    pub fn of_setting(setting: u32) -> Self {
+    pub fn of_variant(variant: u32) -> Self {
         Self {
-            setting,
+            variant,
             ..Self::default()
         }
     }
@@ -63,7 +63,7 @@ impl PlayOptions {
 ///
 /// ```
 /// use wasmouse_sdk::testing::Score;
-/// assert_eq!(Score::new(110, 17, 30).to_string(), "20.667");
+/// assert_eq!(Score::new(17, 110, 30).to_string(), "20.667");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Score {
@@ -71,10 +71,10 @@ pub struct Score {
 }
 
 impl Score {
-    /// The score of these steps: those of the speed run plus those of the
-    /// exploration divided by `divisor` (at least 1), to the nearest thousandth; a
-    /// tie goes to the even one, as the tester's printing does.
-    pub const fn new(exploration_steps: u32, speed_steps: u32, divisor: u32) -> Self {
+    /// The steps of the speed run plus those of the exploration run divided by
+    /// `divisor` (at least 1), rounded to the nearest thousandth. A tie rounds to the
+    /// even one, as in the output of the original contest's tester.
+    pub const fn new(speed_steps: u32, exploration_steps: u32, divisor: u32) -> Self {
         let (shared, divisor) = (exploration_steps as u64 * 1000, divisor as u64);
         let (low, rest) = (shared / divisor, shared % divisor);
         let below = rest * 2 < divisor || (rest * 2 == divisor && low.is_multiple_of(2));
@@ -100,54 +100,54 @@ impl fmt::Display for Score {
     }
 }
 
-/// The state before one call, and the answer to it.
+/// The state before a step, and the action that the robot took.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stop {
-    /// 1 for the exploration, 2 for the speed run.
+    /// 1 for the exploration run, 2 for the speed run.
     pub run: u8,
-    /// Where the robot stood.
+    /// The robot's cell.
     pub cell: Cell,
-    /// The way it looked.
+    /// The robot's heading.
     pub heading: Heading,
-    /// What it read.
+    /// The readings.
     pub sensors: Sensors,
-    /// What it answered.
+    /// The robot's action.
     pub action: Action,
 }
 
-/// How a match went.
+/// The outcome of a match.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Played {
-    /// Whether run 2 ended in the goal.
+    /// Whether the speed run ended in the goal.
     pub finished: bool,
-    /// Whether a step of run 1 ended in the goal.
+    /// Whether a step of the exploration run ended in the goal.
     pub goal_seen: bool,
-    /// Steps of run 1, with the reset.
+    /// Steps of the exploration run, including the reset.
     pub exploration_steps: u32,
-    /// Steps of run 2.
+    /// Steps of the speed run.
     pub speed_steps: u32,
     /// The score; `None` unless finished.
     pub score: Option<Score>,
-    /// Every call, in order.
+    /// Every step, in order.
     pub stops: Vec<Stop>,
-    /// Where the robot stands after the last call.
+    /// The robot's position after the last step.
     pub end: Pose,
-    /// Moves that a wall stopped.
+    /// Moves stopped by a wall.
     pub bumps: u32,
-    /// Moves longer than the longest.
+    /// Moves longer than the longest move.
     pub clamps: u32,
-    /// Resets refused before the goal was reached.
+    /// Resets that were ignored because the goal had not been reached.
     pub resets_before_goal: u32,
-    /// Resets refused in run 2.
+    /// Resets that were ignored in the speed run.
     pub resets_in_run_2: u32,
     /// Every journal call, in order.
     pub journal: Vec<Entry>,
-    /// The robot's map against the maze; `None` of a robot that shows none.
+    /// How the robot's map compares with the maze; `None` for a robot without a map.
     pub map: Option<MapAudit>,
 }
 
 impl Played {
-    /// The result in a line, to pin in a test: `finished 110 + 17: 20.667`,
+    /// The outcome in one line, for tests: `finished 110 + 17: 20.667`,
     /// `goal seen 1000 + 0` or `goal not seen 1000 + 0`.
     pub fn summary(&self) -> String {
         let steps = format!("{} + {}", self.exploration_steps, self.speed_steps);
@@ -159,12 +159,12 @@ impl Played {
     }
 }
 
-/// Plays one match of the robot `R` in a maze of the Udacity text format.
+/// Plays one match of the robot `R` in a maze in the Udacity text format.
 ///
 /// # Panics
 ///
-/// When `maze_text` is not such a maze, the start or the goal is outside it, or
-/// the robot panics.
+/// If `maze_text` is not such a maze, the start or the goal is outside it, or the robot
+/// panics.
 pub fn play<R: Robot>(maze_text: &str, options: &PlayOptions) -> Played {
     let maze = Maze::parse(maze_text);
     let briefing = briefing(maze.dimension, options);
@@ -196,16 +196,14 @@ pub fn play<R: Robot>(maze_text: &str, options: &PlayOptions) -> Played {
     }
 }
 
-/// Plays one match and requires that it goes as [`Played::summary`] says, without a
-/// bump, a move that is too long or a reset that is refused.
-///
-/// For what a robot did once and has to do ever after.
+/// Plays one match and requires that [`Played::summary`] is as expected, without bumps,
+/// clamped moves or ignored resets.
 ///
 /// ```
 /// use wasmouse_sdk::testing::{self, MAZE_01, PlayOptions};
 /// use wasmouse_sdk::{Action, Briefing, Robot, Sensors, Turn};
 ///
-/// /// Drives up and then looks around.
+/// /// Drives up and then turns around.
 /// struct Stray;
 ///
 /// impl Robot for Stray {
@@ -226,7 +224,7 @@ pub fn play<R: Robot>(maze_text: &str, options: &PlayOptions) -> Played {
 ///
 /// # Panics
 ///
-/// When it does not, and where [`play`] does.
+/// If it is not, and where [`play`] does.
 pub fn check<R: Robot>(maze_text: &str, options: &PlayOptions, expected: &str) {
     let played = play::<R>(maze_text, options);
     assert_eq!(played.summary(), expected, "{options:?}");
@@ -241,7 +239,7 @@ pub fn check<R: Robot>(maze_text: &str, options: &PlayOptions, expected: &str) {
     }
 }
 
-/// The briefing that [`play`] hands out for a maze of this dimension.
+/// The briefing that [`play`] gives a robot in a maze of this dimension.
 pub fn briefing(dimension: u32, options: &PlayOptions) -> Briefing {
     Briefing {
         dimension,
@@ -250,9 +248,10 @@ pub fn briefing(dimension: u32, options: &PlayOptions) -> Briefing {
         budget: options.budget,
         budget_scope: options.budget_scope,
         longest_move: options.longest_move,
+        units_per_cell: 1,
         exploration_divisor: options.exploration_divisor,
         seed: options.seed,
-        setting: options.setting,
+        variant: options.variant,
     }
 }
 
@@ -361,8 +360,8 @@ impl<'a> Arena<'a> {
         } else {
             played.finished = true;
             played.score = Some(Score::new(
-                played.exploration_steps,
                 played.speed_steps,
+                played.exploration_steps,
                 self.briefing.exploration_divisor,
             ));
         }
@@ -378,15 +377,15 @@ mod tests {
     #[test]
     fn scores_have_three_decimals() {
         let cases = [
-            ((110, 17, 30), "20.667"),
-            ((197, 22, 30), "28.567"),
-            ((18, 17, 30), "17.600"),
+            ((17, 110, 30), "20.667"),
+            ((22, 197, 30), "28.567"),
+            ((17, 18, 30), "17.600"),
             ((1, 1, 16), "1.062"),
-            ((3, 1, 16), "1.188"),
-            ((u32::MAX, 0, 1), "4294967295.000"),
+            ((1, 3, 16), "1.188"),
+            ((0, u32::MAX, 1), "4294967295.000"),
         ];
-        for ((exploration, speed, divisor), expected) in cases {
-            let score = Score::new(exploration, speed, divisor);
+        for ((speed, exploration, divisor), expected) in cases {
+            let score = Score::new(speed, exploration, divisor);
             assert_eq!(score.to_string(), expected);
         }
     }
@@ -429,14 +428,14 @@ mod tests {
     }
 
     #[test]
-    fn a_match_ends_in_the_goal_of_run_2_and_not_before() {
+    fn a_match_ends_in_the_goal_of_the_speed_run_and_not_before() {
         let options = PlayOptions {
             goal: Some(Area::new(Cell::new(0, 4), 1, 1)),
             ..PlayOptions::default()
         };
         let there = [Action::drive(Straight, 3), Action::drive(Straight, 1)];
         let mut actions = vec![Action::drive(Straight, 3), Action::drive(Straight, 2)];
-        // Passed through the goal: this reset is refused.
+        // The robot only passed through the goal, so this reset is ignored.
         actions.push(Action::Reset);
         actions.push(Action::drive(Straight, -1));
         actions.push(Action::Reset);

@@ -1,12 +1,11 @@
-//! A robot's map against the maze: [`MapAudit`].
+//! Compares a robot's map with the maze: [`MapAudit`].
 
 use super::maze::Maze;
 use crate::{Cell, Heading, Map, Wall};
 
-/// How the map that a robot shows ([`Robot::map`](crate::Robot::map)) compares with
-/// the maze that it drives in.
+/// How a robot's map ([`Robot::map`](crate::Robot::map)) compares with the maze.
 ///
-/// Looked at after every answer. A wall that the map does not know is no error.
+/// Checked after every step. An unknown wall is not an error.
 ///
 /// ```
 /// use wasmouse_sdk::testing::{self, MAZE_01, PlayOptions};
@@ -38,13 +37,13 @@ use crate::{Cell, Heading, Map, Wall};
 pub struct MapAudit {
     /// Walls between two cells, open or closed, that the map knows at the end.
     pub known: u32,
-    /// Where the map first was wrong: after which call, counted from 1, the cell and
-    /// its side.
+    /// Where the map was first wrong: after which step, counted from 1, the cell and its
+    /// side.
     pub first_error: Option<(u32, Cell, Heading)>,
 }
 
 impl MapAudit {
-    /// The audit with what the map says after that call.
+    /// The audit after that step.
     pub(super) fn after(self, call: u32, map: &Map, maze: &Maze) -> Self {
         let sides = [Heading::Up, Heading::Right];
         let cells =
@@ -71,7 +70,7 @@ mod tests {
     use crate::testing::{self, MAZE_01, PlayOptions};
     use crate::{Action, Briefing, Cell, Heading, Map, Robot, Sensors, Tracker};
 
-    /// Drives by what it sees; setting 1 mixes up left and right in its map.
+    /// Drives by what it sees; variant 1 mixes up left and right in its map.
     struct Careless {
         tracker: Tracker,
         mixes_up: bool,
@@ -81,7 +80,7 @@ mod tests {
         fn start(briefing: &Briefing) -> Self {
             Self {
                 tracker: Tracker::new(briefing),
-                mixes_up: briefing.setting == 1,
+                mixes_up: briefing.variant == 1,
             }
         }
 
@@ -107,13 +106,13 @@ mod tests {
 
     #[test]
     fn a_wrong_map_is_found_out() {
-        let audit = |setting| {
-            let options = PlayOptions::of_setting(setting);
+        let audit = |variant| {
+            let options = PlayOptions::of_variant(variant);
             testing::play::<Careless>(MAZE_01, &options).map
         };
         let honest = audit(0).expect("a map");
         assert_eq!(honest.first_error, None);
-        // The third call is in (0, 6), where the way to the right is open.
+        // The third call is in (0, 6), where the right side is open.
         let wrong = audit(1).expect("a map").first_error;
         assert_eq!(wrong, Some((3, Cell::new(0, 6), Heading::Right)));
     }

@@ -1,7 +1,7 @@
-//! The arena's own maze: Udacity text in, open walls and readings out.
+//! Mazes for native matches, in the Udacity text format.
 //!
-//! Deliberately small and separate from the host's, so that the two can be
-//! checked against each other. Not strict: the host names every flaw of a maze.
+//! Deliberately small and separate from the host's implementation, so that the two can be
+//! checked against each other. It does not check everything; the host does.
 
 use crate::geometry::DIMENSION_MAX;
 use crate::{Cell, Heading, Sensors};

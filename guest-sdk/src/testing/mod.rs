@@ -1,8 +1,8 @@
-//! Native matches for a robot's own tests: no WebAssembly, no host.
+//! Native matches for a robot's tests, without WebAssembly and without the host.
 //!
-//! A small, independent implementation of the contest's rules: the Udacity maze
-//! text, sensing, moving, bumps, resets, budget and score. It knows no fuel and
-//! no limits; those belong to the host.
+//! A small, independent implementation of the contest rules: the Udacity maze format,
+//! sensing, moving, bumps, resets, budget and score. It has no fuel and no limits; only the
+//! host has those.
 //!
 //! ```
 //! use wasmouse_sdk::testing::{self, MAZE_01, PlayOptions};
@@ -28,9 +28,8 @@
 mod arena;
 mod audit;
 mod maze;
-pub(crate) mod record;
 
+pub use crate::record::{Entry, Note};
 pub use arena::{PlayOptions, Played, Score, Stop, briefing, check, play};
 pub use audit::MapAudit;
 pub use maze::MAZE_01;
-pub use record::{Entry, Note};

@@ -5,7 +5,7 @@ use std::hint::black_box;
 
 use criterion::{Criterion, Throughput};
 use wasmouse::maze::Maze;
-use wasmouse::robot::{Host, Recorder, Robot, engine_config};
+use wasmouse::robot::{Host, INTERFACE_VERSION, Recorder, Robot, engine_config};
 use wasmouse::sim::{Limits, Ruleset};
 use wasmtime::component::{Component, ComponentType, Lift, Linker, Lower, TypedFunc};
 use wasmtime::{Engine, Store};
@@ -67,11 +67,17 @@ impl Bare {
         let mut store = Store::new(&engine, ());
         store.set_fuel(u64::MAX).expect("fuel is on");
         store.set_epoch_deadline(1);
-        let instance = Linker::new(&engine)
+        let mut linker = Linker::new(&engine);
+        // Robots import `panic` of the journal, and this one does not call it.
+        linker
+            .define_unknown_imports_as_traps(&component)
+            .expect("an empty linker");
+        let instance = linker
             .instantiate(&mut store, &component)
-            .expect("a robot without a journal");
+            .expect("a robot that needs no journal");
+        let controller = format!("wasmouse:robot/controller@{INTERFACE_VERSION}");
         let controller = instance
-            .get_export_index(&mut store, None, "wasmouse:robot/controller@0.1.0")
+            .get_export_index(&mut store, None, &controller)
             .expect("a robot");
         let next_move = instance
             .get_export_index(&mut store, Some(&controller), "next-move")

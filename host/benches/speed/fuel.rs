@@ -6,7 +6,7 @@
 
 use std::time::{Duration, Instant};
 
-use wasmouse::robot::componentize::componentize;
+use wasmouse::robot::componentize::{CONTROLLER_EXPORTS, JOURNAL_IMPORT, componentize};
 use wasmouse::robot::{FaultKind, FuelLimit, Host, Recorder, Robot, Verdict};
 use wasmouse::sim::{Limits, Ruleset};
 
@@ -364,7 +364,8 @@ impl Mix {
         } else {
             self.turn.repeat(self.unroll)
         };
-        let journal = "wasmouse:robot/journal@0.1.0";
+        let journal = JOURNAL_IMPORT;
+        let [start, next_move] = CONTROLLER_EXPORTS;
         let (fields, prepare) = (self.fields, self.prepare);
         let module = format!(
             r#"(module
@@ -373,10 +374,10 @@ impl Mix {
                 (memory (export "memory") {PAGES} {PAGES})
                 (global $g (mut i32) (i32.const 0))
                 {fields}
-                (func (export "wasmouse:robot/controller@0.1.0#start")
-                    (param i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i64 i32)
+                (func (export "{start}")
+                    (param i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i64 i32)
                     (local $i i32) {prepare})
-                (func (export "wasmouse:robot/controller@0.1.0#next-move")
+                (func (export "{next_move}")
                     (param i32 i32 i32) (result i32)
                     (local $i i32) (local $j i32) (local $x i64) (local $d f64)
                     (local $v v128) (local $r funcref)

@@ -10,8 +10,8 @@ use wasmouse_sdk as sdk;
 use wasmouse_sdk::Robot as _;
 
 /// Plays one match; the trace tells how it went.
-pub fn play(maze: &Maze, rules: &Ruleset, setting: u32, trace: &mut Trace) {
-    let mut robot = Flood::start(&briefing(maze, rules, setting));
+pub fn play(maze: &Maze, rules: &Ruleset, variant: u32, trace: &mut Trace) {
+    let mut robot = Flood::start(&briefing(maze, rules, variant));
     let mut simulation = Simulation::new(maze, rules, trace);
     while simulation.end().is_none() {
         let action = robot.next_move(readings(simulation.sense()));
@@ -20,9 +20,9 @@ pub fn play(maze: &Maze, rules: &Ruleset, setting: u32, trace: &mut Trace) {
 }
 
 /// What the host tells a robot, as far as contest mazes differ.
-fn briefing(maze: &Maze, rules: &Ruleset, setting: u32) -> sdk::Briefing {
+fn briefing(maze: &Maze, rules: &Ruleset, variant: u32) -> sdk::Briefing {
     let briefing = sdk::Briefing {
-        setting,
+        variant,
         ..sdk::Briefing::contest(maze.dimension().into())
     };
     assert_eq!(briefing.budget, rules.budget, "a contest under other rules");

@@ -12,9 +12,9 @@ use wasmouse::sim::{Limits, Ruleset};
 /// The smallest robot that drives: one cell ahead, or a turn to the right at a wall.
 const DRIVER: &str = r#"(module
     (memory (export "memory") 1)
-    (func (export "wasmouse:robot/controller@0.1.0#start")
-        (param i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i64 i32))
-    (func (export "wasmouse:robot/controller@0.1.0#next-move")
+    (func (export "wasmouse:robot/controller@0.2.0#start")
+        (param i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i64 i32))
+    (func (export "wasmouse:robot/controller@0.2.0#next-move")
         (param $left i32) (param $front i32) (param $right i32) (result i32)
         (local $clear i32)
         (local.set $clear (i32.ne (local.get $front) (i32.const 0)))

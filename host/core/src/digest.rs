@@ -1,5 +1,4 @@
-//! [`Digest`]: the identity of a component, maze, ruleset, match or transcript, taken
-//! from its content.
+//! [`Digest`]: the identity of a component, maze, ruleset, match or transcript by its content.
 
 use std::fmt;
 use std::str::FromStr;
@@ -9,8 +8,8 @@ use sha2::{Digest as _, Sha256};
 
 /// A SHA-256 digest.
 ///
-/// Displays, parses and serialises as 64 lowercase hexadecimal digits; in binary formats
-/// it serialises as its 32 bytes.
+/// The text form has 64 lowercase hexadecimal digits. Serialises as text in formats for people
+/// such as JSON, and as 32 bytes in binary formats.
 ///
 /// ```
 /// use wasmouse_core::Digest;
@@ -68,7 +67,7 @@ impl FromStr for Digest {
     }
 }
 
-/// The value of a lowercase digit. Uppercase is rejected so that each digest has one text.
+/// The value of a lowercase digit. Uppercase is rejected, so that a digest has one text form.
 const fn hex_digit(digit: u8) -> Result<u8, ParseDigestError> {
     match digit {
         b'0'..=b'9' => Ok(digit - b'0'),
@@ -98,35 +97,32 @@ impl<'de> Deserialize<'de> for Digest {
     }
 }
 
-/// Digests a value by its canonical encoding.
+/// Computes the digest of a value from its canonical encoding.
 ///
-/// The encoding starts with the name of the encoding and its version, ended by a zero
-/// byte. Numbers follow as 8 bytes, little endian; digests as their 32 bytes; byte strings
-/// as their length (a number) and the bytes. No two sequences of values of one encoding
-/// have the same bytes, and nothing depends on `Debug`, on the order of a map or on the
+/// The encoding starts with its name and version, followed by a zero byte. Then come the
+/// values: a number as 8 bytes, little endian; a digest as its 32 bytes; bytes as their length
+/// (a number) and themselves. Two different sequences of values of the same types never have
+/// the same bytes, and the bytes do not depend on `Debug`, on the order of a map or on the
 /// machine.
+///
+/// ```
+/// use wasmouse_core::{Digest, DigestBuilder};
+/// let digest = DigestBuilder::new("example.pair.1").numbers(&[1]).bytes(b"xy").finish();
+/// assert_eq!(
+///     digest,
+///     Digest::of(b"example.pair.1\0\x01\0\0\0\0\0\0\0\x02\0\0\0\0\0\0\0xy"),
+/// );
+/// ```
 #[derive(Clone, Debug)]
 pub struct DigestBuilder(Sha256);
 
 impl DigestBuilder {
-    /// Starts an encoding, named like `wasmouse.rules.1`.
+    /// Starts an encoding with a name such as `wasmouse.rules.1`.
     pub fn new(encoding: &str) -> Self {
         let mut hasher = Sha256::new();
         hasher.update(encoding);
         hasher.update([0]);
         Self(hasher)
-    }
-
-    /// Hashes bytes that are an encoding of their own ([`DigestBuilder::raw`]).
-    pub(crate) fn plain() -> Self {
-        Self(Sha256::new())
-    }
-
-    /// Adds bytes as they are.
-    #[must_use]
-    pub(crate) fn raw(mut self, bytes: &[u8]) -> Self {
-        self.0.update(bytes);
-        self
     }
 
     /// Adds numbers, in order.
@@ -153,7 +149,7 @@ impl DigestBuilder {
         self
     }
 
-    /// The digest of everything that was added.
+    /// The digest of all added values.
     pub fn finish(self) -> Digest {
         Digest(self.0.finalize().into())
     }
@@ -164,7 +160,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_the_canonical_text_is_a_digest() {
+    fn only_the_canonical_text_is_parsed() {
         let text = Digest::of(b"x").to_string();
         assert_eq!(text.parse::<Digest>(), Ok(Digest::of(b"x")));
         for wrong in [
@@ -178,12 +174,17 @@ mod tests {
     }
 
     #[test]
-    fn the_encoding_is_part_of_the_digest() {
+    fn the_serialised_form_is_checked() {
+        let json = serde_json::to_string(&Digest::of(b"x")).expect("it serialises");
+        assert_eq!(json, format!("\"{}\"", Digest::of(b"x")));
+        assert_eq!(serde_json::from_str(&json).ok(), Some(Digest::of(b"x")));
+        let error = serde_json::from_str::<Digest>(&json.to_uppercase()).expect_err("uppercase");
+        assert!(error.to_string().contains("64 lowercase"), "{error}");
+    }
+
+    #[test]
+    fn the_name_of_the_encoding_is_part_of_the_digest() {
         let digest = |name: &str| DigestBuilder::new(name).numbers(&[1]).finish();
         assert_ne!(digest("a"), digest("b"));
-        let expected = Digest::of(b"a\0\x01\0\0\0\0\0\0\0");
-        assert_eq!(digest("a"), expected);
-        let bytes = DigestBuilder::new("a").bytes(b"xy").finish();
-        assert_eq!(bytes, Digest::of(b"a\0\x02\0\0\0\0\0\0\0xy"));
     }
 }

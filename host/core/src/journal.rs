@@ -1,21 +1,21 @@
-//! [`Journal`]: what a robot tells the people who watch it.
+//! [`Journal`]: the log lines, colours, labels and wall beliefs of a robot.
 //!
-//! Entries and their text live in two growing buffers that are reused from
-//! match to match. The text is untrusted: whoever shows it escapes it.
+//! The text is untrusted: escape it before displaying it.
+
+use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
-use std::ops::Range;
 
 use crate::maze::{Cell, Heading};
 
-/// How much a log line matters, as in the WIT.
+/// The importance of a log line, as in the WIT.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Level {
     /// For the author of the robot.
     Debug,
-    /// For anyone who watches.
+    /// For everyone who watches the robot.
     Info,
-    /// Something unexpected that the robot can live with.
+    /// Something unexpected that the robot can handle.
     Warning,
     /// Something that should not have happened.
     Error,
@@ -36,40 +36,40 @@ pub enum Color {
     Gray,
 }
 
-/// What a robot believes about a wall, as in the WIT.
+/// A robot's belief about a wall, as in the WIT.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Belief {
-    /// Not known.
+    /// The robot does not know.
     Unknown,
-    /// Nothing stands there.
+    /// There is no wall.
     Open,
-    /// A wall stands there.
+    /// There is a wall.
     Closed,
 }
 
-/// One entry, with its text borrowed from the journal.
+/// The content of an entry. `Text` is `&str`, except inside a journal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Note<'a> {
+pub enum NoteOf<Text> {
     /// A line of text.
     Log {
-        /// How much it matters.
+        /// The importance of the line.
         level: Level,
         /// The text, unescaped.
-        text: &'a str,
+        text: Text,
     },
     /// A painted cell.
     Paint {
-        /// Which cell.
+        /// The cell.
         cell: Cell,
         /// Its colour from now on.
         color: Color,
     },
     /// A short text in a cell.
     Label {
-        /// Which cell.
+        /// The cell.
         cell: Cell,
         /// The text, unescaped; empty removes the label.
-        text: &'a str,
+        text: Text,
     },
     /// A belief about a wall.
     Wall {
@@ -77,60 +77,79 @@ pub enum Note<'a> {
         cell: Cell,
         /// The side of that cell.
         side: Heading,
-        /// What the robot believes.
+        /// The belief.
         belief: Belief,
     },
 }
 
-/// An entry and the step in which it was made.
+/// The content of an entry, with its text borrowed from the journal or the robot.
+pub type Note<'a> = NoteOf<&'a str>;
+
+impl<Text> NoteOf<Text> {
+    fn map_text<To>(self, map: impl FnOnce(Text) -> To) -> NoteOf<To> {
+        match self {
+            Self::Log { level, text } => NoteOf::Log {
+                level,
+                text: map(text),
+            },
+            Self::Paint { cell, color } => NoteOf::Paint { cell, color },
+            Self::Label { cell, text } => NoteOf::Label {
+                cell,
+                text: map(text),
+            },
+            Self::Wall { cell, side, belief } => NoteOf::Wall { cell, side, belief },
+        }
+    }
+}
+
+/// A note and the step in which the robot wrote it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Entry<'a> {
     /// 0 during `start`, then the number of the step, counted from 1.
     pub step: u32,
-    /// What was said.
+    /// The note.
     pub note: Note<'a>,
 }
 
-/// How much a robot wrote to its journal.
+/// The size of a journal. Serialises as `{"entries": 12, "dropped": 0}`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JournalCounts {
-    /// Entries that were kept.
+    /// Entries in the journal.
     pub entries: u64,
-    /// Entries that the limit kept out.
+    /// Entries dropped because of the limit.
     pub dropped: u64,
 }
 
-/// All entries of a match, in order, up to a limit.
+/// The entries of a match, in order, up to a limit on their size.
+///
+/// Entries and text are in two buffers that are reused for the next match.
+///
+/// ```
+/// use wasmouse_core::journal::{Journal, JournalCounts, Level, Note};
+/// let mut journal = Journal::default();
+/// journal.clear(40);
+/// journal.push(1, Note::Log { level: Level::Info, text: "dead end" });
+/// journal.push(2, Note::Log { level: Level::Info, text: "too long for the rest" });
+/// assert_eq!(journal.counts(), JournalCounts { entries: 1, dropped: 1 });
+/// assert_eq!(journal.entries().next().map(|entry| entry.step), Some(1));
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Journal {
-    entries: Vec<Stored>,
+    /// By step; the text of a note is a range of `text`.
+    entries: Vec<(u32, NoteOf<Range<usize>>)>,
     text: String,
     bytes_max: u64,
     bytes: u64,
     dropped: u64,
 }
 
-#[derive(Clone, Debug)]
-struct Stored {
-    step: u32,
-    note: StoredNote,
-}
-
-#[derive(Clone, Debug)]
-enum StoredNote {
-    Log(Level, Range<usize>),
-    Paint(Cell, Color),
-    Label(Cell, Range<usize>),
-    Wall(Cell, Heading, Belief),
-}
-
-/// What an entry without text counts, in bytes.
+/// The size of an entry without text towards the limit, in bytes.
 pub const ENTRY_BYTES: u64 = 16;
 
 impl Journal {
-    /// Forgets all entries, keeps the memory, and sets the limit in bytes: 16
-    /// for each entry plus the length of its text.
+    /// Removes all entries and sets the limit in bytes: [`ENTRY_BYTES`] for each entry plus
+    /// the length of its text.
     pub fn clear(&mut self, bytes_max: u64) {
         self.entries.clear();
         self.text.clear();
@@ -141,79 +160,53 @@ impl Journal {
 
     /// The entries, in order.
     pub fn entries(&self) -> impl Iterator<Item = Entry<'_>> {
-        self.entries.iter().map(|stored| Entry {
-            step: stored.step,
-            note: match &stored.note {
-                StoredNote::Log(level, range) => Note::Log {
-                    level: *level,
-                    text: &self.text[range.clone()],
-                },
-                StoredNote::Paint(cell, color) => Note::Paint {
-                    cell: *cell,
-                    color: *color,
-                },
-                StoredNote::Label(cell, range) => Note::Label {
-                    cell: *cell,
-                    text: &self.text[range.clone()],
-                },
-                StoredNote::Wall(cell, side, belief) => Note::Wall {
-                    cell: *cell,
-                    side: *side,
-                    belief: *belief,
-                },
-            },
+        self.entries.iter().map(|(step, note)| Entry {
+            step: *step,
+            note: note.clone().map_text(|range| &self.text[range]),
         })
     }
 
-    /// How many entries there are.
+    /// The number of entries.
     pub fn len(&self) -> usize {
         self.entries.len()
     }
 
-    /// Whether the robot said nothing.
+    /// Whether there are no entries.
     pub fn is_empty(&self) -> bool {
         self.entries.is_empty()
     }
 
-    /// Entries that the limit kept out.
+    /// The number of entries dropped because of the limit.
     pub const fn dropped(&self) -> u64 {
         self.dropped
     }
 
-    /// How many entries there are, and how many the limit kept out.
+    /// The number of entries, and of those dropped because of the limit.
     pub fn counts(&self) -> JournalCounts {
         JournalCounts {
-            entries: u64::try_from(self.len()).unwrap_or(u64::MAX),
+            entries: self.len() as u64,
             dropped: self.dropped,
         }
     }
 
-    /// Adds an entry, or counts it as dropped.
+    /// Adds an entry, or counts it as dropped if it exceeds the limit.
     pub fn push(&mut self, step: u32, note: Note<'_>) {
-        let text = match note {
-            Note::Log { text, .. } | Note::Label { text, .. } => text,
-            Note::Paint { .. } | Note::Wall { .. } => "",
+        let length = match note {
+            Note::Log { text, .. } | Note::Label { text, .. } => text.len() as u64,
+            Note::Paint { .. } | Note::Wall { .. } => 0,
         };
-        let length = u64::try_from(text.len()).unwrap_or(u64::MAX);
-        let bytes = self
-            .bytes
-            .saturating_add(ENTRY_BYTES)
-            .saturating_add(length);
+        let bytes = self.bytes.saturating_add(ENTRY_BYTES + length);
         if bytes > self.bytes_max {
             self.dropped += 1;
             return;
         }
         self.bytes = bytes;
-        let start = self.text.len();
-        self.text.push_str(text);
-        let range = start..self.text.len();
-        let note = match note {
-            Note::Log { level, .. } => StoredNote::Log(level, range),
-            Note::Paint { cell, color } => StoredNote::Paint(cell, color),
-            Note::Label { cell, .. } => StoredNote::Label(cell, range),
-            Note::Wall { cell, side, belief } => StoredNote::Wall(cell, side, belief),
-        };
-        self.entries.push(Stored { step, note });
+        let note = note.map_text(|text| {
+            let start = self.text.len();
+            self.text.push_str(text);
+            start..self.text.len()
+        });
+        self.entries.push((step, note));
     }
 }
 
@@ -222,7 +215,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn keeps_entries_up_to_the_limit() {
+    fn entries_beyond_the_limit_are_dropped() {
         let mut journal = Journal::default();
         journal.clear(40);
         let log = |text| Note::Log {
@@ -230,24 +223,13 @@ mod tests {
             text,
         };
         journal.push(1, log("four"));
-        journal.push(2, log("this line is too long for what is left"));
+        journal.push(2, log("this line is too long for the rest"));
         journal.push(3, log("now"));
-        let texts: Vec<_> = journal.entries().collect();
-        assert_eq!(texts.len(), 2);
-        assert_eq!(
-            texts[0],
-            Entry {
-                step: 1,
-                note: log("four")
-            }
-        );
-        assert_eq!(
-            texts[1],
-            Entry {
-                step: 3,
-                note: log("now")
-            }
-        );
+        let entry = |step, text| Entry {
+            step,
+            note: log(text),
+        };
+        assert!(journal.entries().eq([entry(1, "four"), entry(3, "now")]));
         assert_eq!(journal.dropped(), 1);
     }
 }

@@ -1,18 +1,46 @@
 //! The core of wasmouse: mazes, the rules of the game, and records of matches.
 //!
-//! Everything that has to be the same wherever a match is played, stored or shown:
+//! It holds what has to be the same wherever a match is played, stored or shown:
 //!
-//! - [`maze`]: cells and walls, file formats, contest rules for mazes, solving,
-//!   generating;
+//! - [`maze`]: cells and walls, file formats, contest rules for mazes, solver, generators;
 //! - [`game`]: rules, simulation, trace, score, verdict;
-//! - [`journal`]: what a robot tells the people who watch it;
-//! - [`record`]: the identity of a match ([`MatchKey`](record::MatchKey)), what came of
-//!   it ([`MatchRecord`](record::MatchRecord)) and the robot's actions
+//! - [`journal`]: log lines, colours and labels of a robot;
+//! - [`record`]: the identity of a match ([`MatchKey`](record::MatchKey)), its outcome
+//!   ([`MatchRecord`](record::MatchRecord)) and the robot's actions
 //!   ([`Transcript`](record::Transcript)).
 //!
-//! The crate knows no WebAssembly, opens no file, starts no thread and reads no clock, so
-//! a web page, a terminal player or a coordinator on another machine can use it as it is.
-//! It compiles for `wasm32-unknown-unknown`.
+//! The crate does not use WebAssembly, files, threads or clocks, so that a web page, a
+//! terminal player or a coordinator on another machine can use it. It compiles for
+//! `wasm32-unknown-unknown`.
+//!
+//! A match from its robot's actions:
+//!
+//! ```
+//! use wasmouse_core::game::{Action, Ruleset, Verdict};
+//! use wasmouse_core::maze::{Maze, Turn, Walls};
+//! use wasmouse_core::record::{Transcript, trace};
+//!
+//! let maze = Maze::contest(Walls::open(12)).expect("start and goal fit");
+//! let drive = |turn, advance| Action::Move { turn, advance };
+//! // To (5, 5) in the goal, which ends the exploration run, and there again.
+//! let path = [
+//!     drive(Turn::Straight, 3),
+//!     drive(Turn::Straight, 2),
+//!     drive(Turn::Right, 3),
+//!     drive(Turn::Straight, 2),
+//! ];
+//! let mut transcript = Transcript::default();
+//! for action in path.into_iter().chain([Action::Reset]).chain(path) {
+//!     transcript.push(action);
+//! }
+//!
+//! let rules = Ruleset::default().game;
+//! let (result, trace) = trace(&maze, &rules, &transcript).expect("a whole match");
+//! let score = result.verdict.score().expect("finished");
+//! assert_eq!(score.to_string(), "4.167");
+//! assert_eq!(Some(score), rules.oracle_score(&maze));
+//! assert_eq!(trace.steps()[2].sensors.right, 11);
+//! ```
 
 mod digest;
 pub mod game;

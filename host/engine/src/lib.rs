@@ -28,13 +28,9 @@ pub use executor::{
     AdmittedRobot, DetailedMatch, Executor, InProcess, Isolation, LocalExecutor, Played, Sandboxed,
     Sink, Trust,
 };
-pub use limits::{AdmissionLimits, Limits};
+pub use limits::{AdmissionLimits, Limits, STACK_BYTES};
 pub use runner::Recording;
 pub use runtime::{
     Cache, CacheUse, CompiledRobot, ENGINE_REVISION, Frame, MATCH_SECONDS_MAX, Runtime,
     WASMTIME_VERSION, engine_config, engine_id,
 };
-
-/// Stack of the threads that run robots, in bytes: wasm gets its own limit of it, and wasmtime
-/// needs room for itself beyond that.
-pub const STACK_BYTES: usize = 8 << 20;

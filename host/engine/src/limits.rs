@@ -4,6 +4,10 @@ use serde::{Deserialize, Serialize};
 use wasmouse_core::game::SandboxLimits;
 use wasmouse_core::{Digest, DigestBuilder};
 
+/// Stack of the threads that run robots, in bytes: wasm gets its own limit of it, and wasmtime
+/// needs room for itself beyond that.
+pub const STACK_BYTES: usize = 8 << 20;
+
 /// Everything that an engine enforces, split by what it can decide.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Limits {

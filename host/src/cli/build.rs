@@ -1,8 +1,7 @@
-//! `wasmouse build`: a robot crate or a core module becomes a component file.
+//! `wasmouse build`: turns a robot project or a core module into a component file.
 //!
-//! Runs cargo, finds the module that it made, wraps it
-//! ([`crate::robot::componentize`]) and writes it. Which compiler is used is
-//! [`super::toolchain`]'s decision.
+//! Runs cargo, finds the module that it built, wraps it ([`componentize`]) and writes it.
+//! Which compiler is used is decided by [`super::toolchain`].
 
 use std::ffi::OsString;
 use std::fmt;
@@ -12,80 +11,122 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use serde::Deserialize;
-use wasmparser::{Parser, Payload};
+use wasmouse_engine::Limits;
+use wasmouse_engine::admission::{componentize, examine};
 
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output::{self, Existing};
 use super::toolchain::{Toolchain, WASM_TARGET};
-use crate::robot::componentize::componentize;
 
 const EXAMPLES: &str = "\
 Examples:
-  wasmouse build                       the crate in this folder
+  wasmouse build                       the project in this folder
   wasmouse build my-robot              writes my-robot/my-robot.wasm
   wasmouse build my-robot -o bot.wasm
   wasmouse build module.wasm           wraps a core module of any language
 
-The wasm target is added with rustup where it is missing; where rustup cannot
-fetch it, a packaged compiler (Debian: rustc-web, rust-web-src, lld-22) is used.";
+The wasm target is added with rustup if it is missing. If rustup cannot fetch it,
+a packaged compiler is used (Debian: rustc-web, rust-web-src, lld-22).";
 
-/// Build a robot crate, or wrap a core module, into a component.
+/// Build a robot project, or wrap a core module, into a component
 ///
-/// For a crate, runs `cargo build` for wasm32-unknown-unknown and writes
-/// NAME.wasm into the crate's folder. For a core module FILE.wasm, writes
+/// For a project, runs `cargo build` for wasm32-unknown-unknown and writes
+/// NAME.wasm into the project folder. For a core module FILE.wasm, writes
 /// FILE.component.wasm beside it.
 #[derive(clap::Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
-    /// A robot crate's folder, or a core module (.wasm).
+    /// Robot project folder, or a core module (.wasm)
     #[arg(default_value = ".")]
     path: PathBuf,
-    /// Where to write the component.
+    /// Output file for the component
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// The cargo profile to build a crate with.
-    #[arg(long, value_name = "NAME", default_value = "release")]
+    /// Cargo profile to build the project with
+    #[arg(long, value_name = "NAME", default_value = DEFAULT_PROFILE)]
     profile: String,
 }
+
+/// The file that makes a folder a robot project.
+const MANIFEST: &str = "Cargo.toml";
+
+/// The cargo profile that projects are built with unless the user chooses another.
+const DEFAULT_PROFILE: &str = "release";
 
 /// The interface without functions, in any version.
 const TYPES_INTERFACE: &str = "wasmouse:robot/types@";
 
-/// Builds, writes, and prints what was made.
+/// Builds, writes, and prints what was built.
 pub fn run(args: &Args) -> Result<Exit, Failure> {
     let (core_module, default_output) = if args.path.is_dir() {
-        let krate = Crate::find(&args.path)?;
-        let module = krate.compile(&args.profile)?;
-        (
-            module,
-            krate.folder.join(&krate.name).with_extension("wasm"),
-        )
+        let project = Project::find(&args.path)?;
+        (project.compile(&args.profile)?, project.component())
     } else {
         let module = fs::read(&args.path).map_err(|error| {
             Failure::input(format_args!(
                 "failed to read `{}`: {error}",
                 args.path.display()
             ))
-            .hint("give the folder of a robot crate or a core module (.wasm)")
+            .hint("give the folder of a robot project or a core module (.wasm)")
         })?;
         (module, args.path.with_extension("component.wasm"))
     };
-    let component = componentize(&core_module).map_err(|error| {
-        Failure::robot(format_args!(
-            "cannot make a robot of `{}`: {error}",
-            args.path.display()
-        ))
-        .hint(error.hint())
-    })?;
+    let component = to_component(&core_module, &args.path)?;
     let file = args.output.as_deref().unwrap_or(&default_output);
     output::save(file, &component, Existing::Replace)?;
     output::print(&format!("{}\n", Built::new(file, &component)))?;
     Ok(Exit::Success)
 }
 
-/// A robot crate: a package with a library that becomes a module.
-struct Crate {
+/// Whether a folder is a robot project: it has a cargo manifest.
+pub fn is_project(path: &Path) -> bool {
+    path.join(MANIFEST).is_file()
+}
+
+/// Builds a robot project and returns the path of its component.
+///
+/// # Errors
+///
+/// When it is not a robot project or does not compile.
+pub fn build_project(folder: &Path) -> Result<PathBuf, Failure> {
+    let project = Project::find(folder)?;
+    let component = to_component(&project.compile(DEFAULT_PROFILE)?, folder)?;
+    let path = project.component();
+    output::save(&path, &component, Existing::Replace)?;
+    Ok(path)
+}
+
+/// A source file of the project that was changed after the component was built.
+pub fn newer_source(project: &Path, component: &Path) -> Option<PathBuf> {
+    let modified = |path: &Path| fs::metadata(path).and_then(|it| it.modified()).ok();
+    if !is_project(project) {
+        return None;
+    }
+    let built = modified(component)?;
+    let mut left = vec![project.join("src"), project.join(MANIFEST)];
+    while let Some(path) = left.pop() {
+        match fs::read_dir(&path) {
+            Ok(entries) => left.extend(entries.filter_map(|it| Some(it.ok()?.path()))),
+            Err(_) if modified(&path).is_some_and(|it| it > built) => return Some(path),
+            Err(_) => {}
+        }
+    }
+    None
+}
+
+fn to_component(core_module: &[u8], source: &Path) -> Result<Vec<u8>, Failure> {
+    componentize(core_module).map_err(|error| {
+        Failure::robot(format_args!(
+            "cannot build a robot from `{}`: {error}",
+            source.display()
+        ))
+        .hint(error.hint())
+    })
+}
+
+/// A robot project: a package with a library that becomes a module.
+struct Project {
     folder: PathBuf,
     manifest: PathBuf,
     name: String,
@@ -117,22 +158,22 @@ struct Target {
     crate_types: Vec<String>,
 }
 
-impl Crate {
+impl Project {
     fn find(folder: &Path) -> Result<Self, Failure> {
-        let manifest = folder.join("Cargo.toml");
+        let manifest = folder.join(MANIFEST);
         let text = fs::read_to_string(&manifest).map_err(|error| {
             Failure::input(format_args!(
                 "failed to read `{}`: {error}",
                 manifest.display()
             ))
-            .hint("give the folder of a robot crate; `wasmouse new my-robot` makes one")
+            .hint("give the folder of a robot project; `wasmouse new my-robot` creates one")
         })?;
         let parsed: Manifest = toml::from_str(&text).map_err(|error| {
             Failure::input(format_args!(
                 "failed to parse `{}`: {error}",
                 manifest.display()
             ))
-            .hint("a cargo manifest with a `[package]` is needed")
+            .hint("a robot project has a cargo manifest with a `[package]`")
         })?;
         let Some(package) = parsed.package else {
             return Err(Failure::input(format_args!(
@@ -147,6 +188,11 @@ impl Crate {
             manifest: manifest.canonicalize().unwrap_or(manifest),
             name: package.name,
         })
+    }
+
+    /// Where its component is written.
+    fn component(&self) -> PathBuf {
+        self.folder.join(&self.name).with_extension("wasm")
     }
 
     /// Runs cargo; its diagnostics go to stderr as they come.
@@ -167,32 +213,36 @@ impl Crate {
             .stdout(Stdio::piped());
         add_rustflags(&mut command, &self.path_names());
         let mut child = command.spawn().map_err(|error| {
-            Failure::host(format_args!("failed to run cargo: {error}"))
+            Failure::input(format_args!("failed to run cargo: {error}"))
                 .hint("install Rust: https://rustup.rs")
         })?;
         let stdout = child.stdout.take().expect("stdout is piped above");
         let module = self.find_module(BufReader::new(stdout));
-        let status = child
-            .wait()
-            .map_err(|error| Failure::host(format_args!("failed to wait for cargo: {error}")))?;
+        let status = child.wait().map_err(|error| {
+            Failure::internal(format_args!("failed to wait for cargo: {error}"))
+        })?;
         if !status.success() {
             return Err(
-                Failure::input(format_args!("cargo could not build `{}`", self.name))
+                Failure::input(format_args!("cargo failed to build `{}`", self.name))
                     .hint("cargo's messages are above"),
             );
         }
         let module = module
             .map_err(|error| {
-                Failure::host(format_args!("failed to read cargo's messages: {error}"))
+                Failure::internal(format_args!("failed to read cargo's messages: {error}"))
             })?
             .ok_or_else(|| {
-                Failure::input(format_args!("`{}` builds no WebAssembly module", self.name)).hint(
+                Failure::input(format_args!(
+                    "`{}` does not build a WebAssembly module",
+                    self.name
+                ))
+                .hint(
                     "a robot is a library: put `crate-type = [\"cdylib\", \"rlib\"]` under \
                      `[lib]` in its Cargo.toml",
                 )
             })?;
         fs::read(&module).map_err(|error| {
-            Failure::host(format_args!(
+            Failure::internal(format_args!(
                 "failed to read `{}`: {error}",
                 module.display()
             ))
@@ -227,8 +277,8 @@ impl Crate {
         })
     }
 
-    /// Names for the folders that panic messages quote: a component must not
-    /// depend on whose machine it was built on, nor tell.
+    /// Names for the folders that panic messages quote: a component must neither depend on the
+    /// machine that it was built on nor reveal anything of it.
     fn path_names(&self) -> Vec<String> {
         let folder = self.manifest.parent().map(Path::to_owned);
         [(folder, "/robot"), (cargo_home(), "/cargo")]
@@ -302,35 +352,21 @@ impl fmt::Display for Built<'_> {
     }
 }
 
-/// The interfaces that give functions to a component. `types` holds none, and
-/// every robot imports it, so it says nothing.
+/// The interfaces that a component gets functions from. `types` has none, and every robot
+/// imports it, so it says nothing.
 fn imports(component: &[u8]) -> Vec<String> {
-    let mut depth = 0_u32;
-    let mut names = Vec::new();
-    for payload in Parser::new(0).parse_all(component).map_while(Result::ok) {
-        match payload {
-            Payload::ModuleSection { .. } | Payload::ComponentSection { .. } => depth += 1,
-            Payload::End(_) => depth = depth.saturating_sub(1),
-            Payload::ComponentImportSection(section) if depth == 0 => {
-                let imports = section.into_iter().map_while(Result::ok);
-                names.extend(
-                    imports
-                        .map(|import| import.name.name.to_owned())
-                        .filter(|name| !name.starts_with(TYPES_INTERFACE)),
-                );
-            }
-            _ => {}
-        }
-    }
-    names
+    let shape = examine(component, &Limits::default()).shape;
+    let names = shape.map_or_else(Vec::new, |it| it.imports);
+    let has_functions = |name: &String| !name.starts_with(TYPES_INTERFACE);
+    names.into_iter().filter(has_functions).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn krate() -> Crate {
-        Crate {
+    fn project() -> Project {
+        Project {
             folder: "bot".into(),
             manifest: "/home/me/bot/Cargo.toml".into(),
             name: "bot".into(),
@@ -339,7 +375,7 @@ mod tests {
 
     #[track_caller]
     fn check_module(messages: &str, expected: Option<&str>) {
-        let module = krate().find_module(messages.as_bytes()).unwrap();
+        let module = project().find_module(messages.as_bytes()).unwrap();
         assert_eq!(module, expected.map(PathBuf::from));
     }
 
@@ -369,46 +405,26 @@ mod tests {
     }
 
     #[track_caller]
-    fn check_refused(manifest: Option<&str>, message_part: &str) {
+    fn check_rejected(manifest: Option<&str>, message_part: &str) {
         let folder = tempfile::tempdir().unwrap();
         if let Some(text) = manifest {
             fs::write(folder.path().join("Cargo.toml"), text).unwrap();
         }
-        let failure = Crate::find(folder.path()).err().unwrap().to_string();
+        let failure = Project::find(folder.path()).err().unwrap().to_string();
         assert!(failure.contains(message_part), "{failure}");
         assert!(failure.contains("hint: "), "{failure}");
     }
 
     #[test]
-    fn folders_without_a_crate_are_refused() {
-        check_refused(None, "failed to read");
-        check_refused(Some("[package\n"), "failed to parse");
-        check_refused(Some("[workspace]\n"), "is a workspace without a package");
+    fn folders_without_a_project_are_rejected() {
+        check_rejected(None, "failed to read");
+        check_rejected(Some("[package\n"), "failed to parse");
+        check_rejected(Some("[workspace]\n"), "is a workspace without a package");
     }
 
     #[test]
     fn flags_are_joined_with_those_of_the_user() {
         assert_eq!(join("-C a".into(), " ", "-C b"), "-C a -C b");
         assert_eq!(join("".into(), " ", "-C b"), "-C b");
-    }
-
-    #[test]
-    fn only_functions_count_as_imports() {
-        let component = |imports: &str| {
-            let text = format!("(component {imports})");
-            imports_of(&wat::parse_str(text).unwrap())
-        };
-        let types = r#"(import "wasmouse:robot/types@0.1.0" (instance))"#;
-        let journal = r#"(import "wasmouse:robot/journal@0.1.0" (instance))"#;
-        assert_eq!(component(types), "imports nothing");
-        assert_eq!(
-            component(&format!("{types}{journal}")),
-            "imports wasmouse:robot/journal@0.1.0"
-        );
-    }
-
-    fn imports_of(component: &[u8]) -> String {
-        let printed = Built::new(Path::new("bot.wasm"), component).to_string();
-        printed.rsplit_once(" bytes, ").unwrap().1.to_owned()
     }
 }

@@ -1,9 +1,8 @@
 //! `wasmouse completions`: completion scripts for shells.
 
-use clap::CommandFactory as _;
+use clap::Command;
 use clap_complete::Shell;
 
-use super::Cli;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
@@ -13,18 +12,18 @@ Examples:
   wasmouse completions bash > ~/.local/share/bash-completion/completions/wasmouse
   wasmouse completions fish > ~/.config/fish/completions/wasmouse.fish";
 
-/// Print a completion script for a shell.
+/// Print a completion script for a shell
 #[derive(clap::Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
-    /// The shell that is to complete commands.
+    /// The shell
     shell: Shell,
 }
 
-/// Prints the script.
-pub fn run(args: &Args) -> Result<Exit, Failure> {
+/// Prints the script for a program with these commands.
+pub fn run(args: &Args, mut program: Command) -> Result<Exit, Failure> {
     let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut Cli::command(), "wasmouse", &mut script);
+    clap_complete::generate(args.shell, &mut program, "wasmouse", &mut script);
     output::print(&String::from_utf8_lossy(&script))?;
     Ok(Exit::Success)
 }

@@ -2,21 +2,26 @@
 
 use std::path::PathBuf;
 
+use wasmouse_core::maze::bundled as bundled_mazes;
+use wasmouse_core::record::trace;
+use wasmouse_engine::bundled::bundled as bundled_robots;
+
 use super::exit::Exit;
 use super::failure::Failure;
-use super::mazes::{self, Legality};
-use super::output::{self, Existing};
-use super::robots::{self, Specification};
-use super::run;
+use super::mazes::{self, BadFiles, Legality};
+use super::output::{self, Draft, Existing};
+use super::play::play_all;
+use super::robots::{self, RobotSpec};
 use super::setup::SetupArgs;
+use super::verdict::{exit, print_faults};
 use super::{page, terminal};
-use crate::contest::{Contest, ContestMaze, MatchResult, Standing, standings};
-use crate::maze::bundled as bundled_mazes;
-use crate::report::replay;
+use crate::contest::{
+    BestMatch, BestMatches, ContestInfo, FaultSummary, Plan, Player, RESULTS_VERSION, RecordList,
+    Results, Seeds, StandingsBuilder, SummaryBuilder, Tee,
+};
+use crate::report::escape::for_terminal;
+use crate::report::paths;
 use crate::report::table;
-use crate::report::visible;
-use crate::robot::bundled::bundled as bundled_robots;
-use crate::robot::{Recorder, Referee};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -24,14 +29,15 @@ Examples:
   wasmouse demo --html demo.html
   wasmouse demo --ascii";
 
-/// Run a contest of the bundled robots in the bundled mazes.
+/// Run a contest of the bundled robots in the bundled mazes
 ///
-/// Prints the standings and a picture of the best run: the way of run 2, over
-/// how often run 1 stopped in each cell. The page has a picture for every robot.
+/// Prints the standings and a picture of the best run: the path of the speed run
+/// over how often the exploration run stopped in each cell. The web page has a
+/// picture for every robot.
 #[derive(clap::Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
-    /// Where to write the web page; replaced when it is there
+    /// Output file for the web page; overwritten if it exists
     #[arg(long, value_name = "FILE", default_value = "wasmouse-demo.html")]
     html: PathBuf,
     /// Draw with ASCII characters only
@@ -43,77 +49,79 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<Exit, Failure> {
-    output::check(&args.html, Existing::Replace)?;
-    let referee = args.setup.referee();
-    let contest = contest(args, &referee)?;
-    let played = run::play(&contest, &referee, args.setup.threads())?;
-    let results = &played.results;
-    let standings = standings(&contest, results);
-
-    let lines = terminal::table_lines(args.ascii);
-    output::print(&table::standings(&contest, &standings, lines))?;
-    print_best_run(args, &contest, &referee, results, &standings)?;
-    run::tell_failures(&contest, results);
-    page::write(
-        &args.html,
-        Existing::Replace,
-        &contest,
-        &referee,
-        results,
-        &standings,
-    )?;
-    Ok(run::exit(&contest, &played))
-}
-
-fn contest(args: &Args, referee: &Referee) -> Result<Contest, Failure> {
-    let robots: Vec<Specification> = bundled_robots()
-        .iter()
-        .map(|robot| Specification::parse(robot.name))
-        .collect::<Result<_, _>>()?;
-    let names: Vec<String> = bundled_mazes()
+    let html = Draft::create(&args.html, Existing::Replace)?;
+    let executor = args.setup.executor();
+    let robots: Vec<RobotSpec> = bundled_robots().iter().map(RobotSpec::bundled).collect();
+    let mazes: Vec<String> = bundled_mazes()
         .iter()
         .map(|maze| maze.name.to_owned())
         .collect();
-    let rules = args.setup.rules;
-    let mazes = mazes::load(&names, Legality::Contest)?;
-    Ok(Contest {
-        entrants: robots::load(&robots, referee)?,
-        mazes: mazes
-            .into_iter()
-            .map(|named| ContestMaze::new(named.name, named.maze, &rules))
-            .collect(),
-        seeds: vec![0],
-        rules,
-    })
+    let plan = Plan {
+        entrants: robots::load(&robots, &executor)?,
+        mazes: mazes::load(&mazes, Legality::Contest, BadFiles::Fail)?,
+        seeds: Seeds { first: 0, count: 1 },
+        rules: executor.rules().clone(),
+    };
+    let players = plan.players();
+    let mut standings = StandingsBuilder::new(&plan, &players);
+    let mut summary = SummaryBuilder::new();
+    let mut faults = FaultSummary::default();
+    let mut best = BestMatches::default();
+    let mut list = RecordList::new(u64::MAX);
+    let mut sink = Tee(vec![
+        &mut standings,
+        &mut summary,
+        &mut faults,
+        &mut best,
+        &mut list,
+    ]);
+    play_all(&plan, &executor, args.setup.jobs(), &mut sink)?;
+    let results = Results {
+        version: RESULTS_VERSION,
+        contest: ContestInfo::new(&plan),
+        matches: list.into_records().unwrap_or_default(),
+        summary: summary.finish(&plan, standings.finish(&plan, &players)),
+    };
+    let best = best.into_best();
+
+    let layout = terminal::table_layout(args.ascii);
+    let standings = &results.summary.standings;
+    output::print(&table::standings(&results.contest, standings, layout))?;
+    print_best_run(args, &plan, &players, &results, &best)?;
+    print_faults(&plan, &players, &results, &faults);
+    page::write(html, &args.html, &results, &players, &best)?;
+    Ok(exit(&plan, &results))
 }
 
+/// Prints the best match of the robot that came first.
 fn print_best_run(
     args: &Args,
-    contest: &Contest,
-    referee: &Referee,
-    results: &[MatchResult],
-    standings: &[Standing],
+    plan: &Plan,
+    players: &[Player],
+    results: &Results,
+    best: &[Option<BestMatch>],
 ) -> Result<(), Failure> {
-    let Some(best) = standings.first() else {
+    let Some(first) = results.summary.standings.lines.first() else {
         return Ok(());
     };
-    let Some(index) = page::best_match(contest, results, best.entrant) else {
+    let is_first = |player: &Player| plan.entrants[player.entrants[0]].name == first.robot;
+    let index = players.iter().position(is_first);
+    let Some(BestMatch { played, maze }) = index.and_then(|index| best.get(index)?.as_ref()) else {
         return Ok(());
     };
-    let result = &results[index];
-    let mut recorder = Recorder::default();
-    contest
-        .replay(referee, result, &mut recorder)
-        .map_err(Failure::host)?;
-    let maze = &contest.mazes[result.maze];
-    let picture = replay::ways(&maze.maze, &recorder.trace);
-    let robot = visible(&contest.entrants[result.entrant].name);
-    let [exploration, speed] = result.outcome.steps;
+    let (_, trace) =
+        trace(&maze.maze, &plan.rules.game, &played.transcript).map_err(Failure::internal)?;
+    let picture = paths(&maze.maze, &trace);
+    let steps = played.record.steps;
     output::print(&format!(
-        "\nThe best run: `{robot}` in `{}`, {} after {exploration} + {speed} steps\n\
-         (the line is run 2, with a dot where a step ended; shaded cells are where run 1 stopped)\n\n{}",
-        visible(&maze.name),
-        result.outcome.verdict.title(),
+        "\nBest run: `{}` in `{}`, {} after {} + {} steps\n\
+         (line: speed run, with a dot where a step ended; shading: how often the exploration \
+         run stopped in a cell)\n\n{}",
+        for_terminal(&first.robot),
+        for_terminal(&maze.name),
+        played.record.verdict.title(),
+        steps.exploration,
+        steps.speed,
         picture.to_text(terminal::picture_style(args.ascii)),
     ))
 }

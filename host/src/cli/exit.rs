@@ -3,23 +3,29 @@
 use std::process::ExitCode;
 
 /// How a command ended. The numbers are documented in `wasmouse --help`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
 pub enum Exit {
     /// The command did what was asked.
     Success = 0,
-    /// The command worked and its answer is no: a maze breaks the contest
-    /// rules, or has no solution; a result is not what its matches give.
-    No = 1,
+    /// A check failed: a maze breaks the contest rules or has no solution, a recorded result
+    /// has changed, a contest is not reproducible.
+    CheckFailed = 1,
     /// The command line is wrong (also clap's own code).
     Usage = 2,
-    /// A file, folder or specification cannot be read or understood.
+    /// An input, or a tool that the command needs, is missing or invalid.
     Input = 3,
-    /// A robot was refused at admission or ended a match with a fault.
+    /// A robot was rejected or ended a match with a fault.
     Robot = 4,
-    /// The host failed: a full disk, a broken pipe to a child, a bug.
-    Host = 5,
-    /// Interrupted by Ctrl-C; what was finished by then has been printed.
+    /// An internal error: a full disk, a broken pipe to a worker, a bug.
+    Internal = 5,
+    /// Everything was played, and no robot finished any match.
+    NoneFinished = 6,
+    /// A result was recorded with another version of the engine, so it cannot be verified.
+    OtherEngine = 7,
+    /// A result was verified, but its file was reformatted.
+    Reformatted = 8,
+    /// Interrupted by Ctrl-C; what was finished by then has been written.
     Interrupted = 130,
 }
 
@@ -27,12 +33,15 @@ pub enum Exit {
 pub const EXIT_CODES_HELP: &str = "\
 Exit codes:
     0  success
-    1  the answer is no (an illegal or unsolvable maze, a false result)
-    2  wrong command line
-    3  an input cannot be read or understood
-    4  a robot was refused or ended a match with a fault
-    5  the host failed
-  130  interrupted";
+    1  a check failed: an illegal or unsolvable maze, a changed result
+    2  invalid command line
+    3  an input file or a required tool is missing or invalid
+    4  a robot was rejected or faulted
+    5  internal error
+    6  no robot finished any match
+    7  a result was recorded with another engine version
+    8  a result is verified, but its file was reformatted
+  130  interrupted by Ctrl-C";
 
 impl From<Exit> for ExitCode {
     fn from(exit: Exit) -> Self {

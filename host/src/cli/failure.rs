@@ -1,4 +1,4 @@
-//! [`Failure`]: the one way in which a command ends without a result.
+//! [`Failure`]: how a command ends without a result.
 
 use std::fmt;
 
@@ -17,24 +17,24 @@ pub struct Failure {
 }
 
 impl Failure {
-    /// A wrong command line that clap could not see.
+    /// An invalid command line that clap does not notice.
     pub fn usage(message: impl fmt::Display) -> Self {
         Self::new(Exit::Usage, message)
     }
 
-    /// An input that cannot be read or understood.
+    /// An input, or a required tool, that is missing or invalid.
     pub fn input(message: impl fmt::Display) -> Self {
         Self::new(Exit::Input, message)
     }
 
-    /// A robot that cannot take part.
+    /// A robot that is rejected.
     pub fn robot(message: impl fmt::Display) -> Self {
         Self::new(Exit::Robot, message)
     }
 
-    /// A failure of the host itself.
-    pub fn host(message: impl fmt::Display) -> Self {
-        Self::new(Exit::Host, message)
+    /// An internal error.
+    pub fn internal(message: impl fmt::Display) -> Self {
+        Self::new(Exit::Internal, message)
     }
 
     fn new(exit: Exit, message: impl fmt::Display) -> Self {

@@ -1,31 +1,33 @@
-//! `wasmouse inspect`: what a robot file is, needs, and whether it is admitted.
-
-use std::fmt::Write as _;
+//! `wasmouse inspect`: whether a robot file is admitted, and what it is.
 
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
-use super::robots::{self, Specification};
+use super::robots;
 use super::setup::{IsolationArgs, SetupArgs};
 use crate::report::inspection::InspectionReport;
 
 const EXAMPLES: &str = "\
 Examples:
   wasmouse inspect my-robot.wasm
+  wasmouse inspect my-robot.wasm --measures
   wasmouse inspect flood --json
 
 Exit codes:
-  0  the robot would be admitted
-  4  it would be refused; the reason is printed";
+  0  the robot is admitted
+  4  the robot is rejected; the reason is printed";
 
-/// Show what a robot file is, imports, exports and needs.
+/// Validate a robot file and show its imports, exports and resource usage
 ///
-/// Says whether a contest would admit it and, if not, why and what to do.
+/// Reports whether the robot is admitted and, if not, why and how to fix it.
 #[derive(clap::Args, Debug)]
 #[command(after_long_help = format!("{}\n\n{EXAMPLES}", robots::SPECIFICATION_HELP))]
 pub struct Args {
-    /// A bundled robot or a file
+    /// A bundled robot, a file or a robot project
     robot: String,
+    /// Show everything that is measured before a robot is compiled, with its limit
+    #[arg(long)]
+    measures: bool,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -37,22 +39,24 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<Exit, Failure> {
-    let specification = Specification::parse(&args.robot)?;
-    let referee = args.setup.referee_for_all(&args.isolation)?;
-    let bytes = specification.read(referee.rules().limits.component_bytes_max)?;
-    let inspection = referee
-        .inspect(&bytes, specification.trust())
+    let specs = robots::resolve(&args.robot)?;
+    let [spec] = &specs[..] else {
+        let message = format!("`{}` has {} robots", args.robot, specs.len());
+        return Err(Failure::usage(message).hint("name one of its files"));
+    };
+    let executor = args.setup.executor_for_all(&args.isolation)?;
+    let bytes = spec.read(executor.limits().admission.component_bytes_max)?;
+    let inspection = executor
+        .inspect(&bytes, spec.trust())
         .map_err(|error| robots::setup_failure(&error))?;
-    robots::tell_sandbox(&referee);
-    let report = InspectionReport::new(&args.robot, &inspection, &referee.rules().limits);
+    robots::warn_about_sandbox(&executor);
+    let report = InspectionReport::new(&args.robot, &inspection, executor.limits());
     if args.json {
         output::print(&report.to_json())?;
     } else {
-        let mut text = String::new();
-        write!(text, "{report}").expect("writing to a string cannot fail");
-        output::print(&text)?;
+        output::print(&report.to_text(args.measures))?;
     }
-    Ok(if inspection.refusal.is_some() {
+    Ok(if inspection.rejection.is_some() {
         Exit::Robot
     } else {
         Exit::Success

@@ -36,7 +36,7 @@ pub fn listen() -> Result<&'static AtomicBool, Failure> {
     HEARD.store(true, Ordering::Relaxed);
     match handled() {
         Ok(()) => Ok(&INTERRUPTED),
-        Err(error) => Err(Failure::host(format!(
+        Err(error) => Err(Failure::internal(format!(
             "failed to listen for Ctrl-C: {error}"
         ))),
     }

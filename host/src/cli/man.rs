@@ -4,10 +4,9 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use clap::{Command, CommandFactory as _};
+use clap::Command;
 use clap_mangen::Man;
 
-use super::Cli;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output::{self, Existing};
@@ -17,18 +16,17 @@ Examples:
   wasmouse man | man -l -
   wasmouse man -o ~/.local/share/man/man1";
 
-/// Print the manual page, or write the pages of all commands.
+/// Print the manual page, or write the pages of all commands
 #[derive(clap::Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
-    /// Write all pages into this folder, as wasmouse.1, wasmouse-run.1 and so on.
+    /// Write all pages into DIR, as wasmouse.1, wasmouse-run.1 and so on
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
 }
 
-/// Prints one page or writes all.
-pub fn run(args: &Args) -> Result<Exit, Failure> {
-    let mut command = Cli::command();
+/// Prints one page, or writes all, for a program with these commands.
+pub fn run(args: &Args, mut command: Command) -> Result<Exit, Failure> {
     command.build();
     match &args.output {
         None => {
@@ -37,7 +35,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         }
         Some(folder) => {
             fs::create_dir_all(folder).map_err(|error| {
-                Failure::host(format_args!(
+                Failure::internal(format_args!(
                     "failed to create `{}`: {error}",
                     folder.display()
                 ))
@@ -69,7 +67,7 @@ fn page(command: &Command, name: &str) -> Result<Vec<u8>, Failure> {
     let written: io::Result<()> = Man::new(command.clone())
         .title(name.to_uppercase())
         .render(&mut page);
-    written.map_err(|error| Failure::host(format_args!("failed to write a page: {error}")))?;
+    written.map_err(|error| Failure::internal(format_args!("failed to write a page: {error}")))?;
     Ok(page)
 }
 
@@ -84,10 +82,16 @@ mod tests {
         let args = Args {
             output: Some(path.clone()),
         };
-        run(&args).unwrap();
+        let check = Command::new("check");
+        let program = Command::new("wasmouse")
+            .subcommand(Command::new("build"))
+            .subcommand(Command::new("maze").subcommand(check))
+            .subcommand(Command::new("worker").hide(true));
+        run(&args, program).unwrap();
         for page in ["wasmouse.1", "wasmouse-build.1", "wasmouse-maze-check.1"] {
             let text = fs::read_to_string(path.join(page)).unwrap();
             assert!(text.contains(".SH NAME"), "{page}");
         }
+        assert!(!path.join("wasmouse-worker.1").exists());
     }
 }

@@ -1,20 +1,23 @@
-//! From what users write for a maze to mazes: [`load`], the same in every command.
+//! From what users write for a maze to mazes, the same in every command.
 //!
-//! A specification is resolved to [`Source`]s without reading any of them, then
-//! each source is read, parsed and, unless the user says `--lenient`, held
-//! against the contest rules. What a maze is and which rules it breaks is
-//! decided in [`crate::maze`]; this file only knows names, files and hints.
+//! An argument is resolved to [`Source`]s without reading any of them. Then each source is
+//! read, parsed and, unless the user says `--lenient`, checked against the contest rules.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use crate::maze::format::{self, Format, ParseError, Parsed, TEXT_BYTES_MAX};
-use crate::maze::generate::GenSpec;
-use crate::maze::{BundledMaze, Maze, bundled, violations};
+use wasmouse_core::maze::format::{self, Format, ParseError, Parsed, TEXT_BYTES_MAX};
+use wasmouse_core::maze::generate::{GenSpec, GeneratedMaze};
+use wasmouse_core::maze::{BundledMaze, Maze, bundled, violations};
 
 use super::failure::Failure;
+use super::output::message;
+use super::suggest::suggestion;
+use crate::contest::MazeSource;
+use crate::report::escape::for_terminal;
 
 /// What a user may write for a maze, for the long help of every command.
 pub const SPECIFICATION_HELP: &str = "\
@@ -36,23 +39,6 @@ const EXTENSIONS: [&str; 4] = ["txt", "map", "maz", "num"];
 /// The name and specification of standard input.
 const STDIN: &str = "-";
 
-/// How alike two names are for one to be hinted at; 1 is equal, 0 is different.
-const SIMILARITY_MIN: f64 = 0.7;
-
-/// How many names a hint offers.
-const HINTS_MAX: usize = 3;
-
-/// A maze with what a table calls it.
-#[derive(Clone, Debug)]
-pub struct NamedMaze {
-    /// The bundled name, the specification of a generated maze, or the file name
-    /// without its ending. Two files of the same name in different folders are
-    /// named by their paths instead.
-    pub name: String,
-    /// The maze.
-    pub maze: Maze,
-}
-
 /// Which mazes may pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Legality {
@@ -73,39 +59,99 @@ impl Legality {
     }
 }
 
-/// The mazes that the specifications name, in their order, folders unfolded.
+/// What to do with a file in a folder that is not a maze, or not a legal one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BadFiles {
+    /// Report it and skip it.
+    Skip,
+    /// Fail: `--strict`.
+    Fail,
+}
+
+/// Reads the mazes that the arguments name, in their order. Generated mazes are left to be
+/// generated when they are needed.
 ///
 /// # Errors
 ///
-/// With the first specification that names nothing, the first source that
-/// cannot be read or parsed, or, for [`Legality::Contest`], the first maze that
-/// breaks contest rules.
-pub fn load(specs: &[String], rules: Legality) -> Result<Vec<NamedMaze>, Failure> {
+/// With the first argument that names nothing, the first source that cannot be read or parsed,
+/// or, for [`Legality::Contest`], the first maze that breaks contest rules. Files of a folder
+/// are skipped instead, with a warning, unless `bad_files` says otherwise.
+pub fn load(
+    arguments: &[String],
+    rules: Legality,
+    bad_files: BadFiles,
+) -> Result<Vec<MazeSource>, Failure> {
     let mut sources = Vec::new();
-    for spec in specs {
-        sources.extend(resolve(spec)?);
+    for argument in arguments {
+        let is_folder = Path::new(argument).is_dir();
+        let may_skip = is_folder && bad_files == BadFiles::Skip;
+        sources.extend(resolve(argument)?.into_iter().map(|it| (it, may_skip)));
     }
-    let stdins = sources.iter().filter(|source| **source == Source::Stdin);
+    let stdins = sources
+        .iter()
+        .filter(|(source, _)| *source == Source::Stdin);
     if stdins.count() > 1 {
         return Err(Failure::usage("standard input is given as a maze twice"));
     }
-    let names = unique_names(&sources);
-    let mut mazes = Vec::new();
-    for (source, name) in sources.iter().zip(names) {
-        let (maze, _) = source.read()?;
-        if rules == Legality::Contest {
-            require_legal(source, &maze)?;
+    let names = unique_names(sources.iter().map(|(source, _)| source));
+    let mut mazes = Vec::with_capacity(sources.len());
+    let mut skipped = 0_usize;
+    for ((source, may_skip), name) in sources.iter().zip(names) {
+        match source.load(name, rules) {
+            Ok(maze) => mazes.push(maze),
+            Err(failure) if *may_skip => {
+                skipped += 1;
+                message!("warning: skipped a maze: {}", failure.message());
+            }
+            Err(failure) => return Err(failure),
         }
-        mazes.push(NamedMaze { name, maze });
+    }
+    if mazes.is_empty() {
+        return Err(Failure::input("none of the mazes can be used")
+            .hint("the warnings above say why; --lenient accepts mazes that break contest rules"));
+    }
+    if skipped > 0 {
+        message!(
+            "warning: skipped {skipped} of {} mazes; --strict makes this an error",
+            sources.len()
+        );
     }
     Ok(mazes)
 }
 
-/// One maze that a specification names, not yet read.
+/// A maze with the name that results call it.
+#[derive(Clone, Debug)]
+pub struct NamedMaze {
+    /// The bundled name, the specification of a generated maze, or the file name without its
+    /// extension. Two files of the same name in different folders are named by their paths
+    /// instead.
+    pub name: String,
+    /// The maze.
+    pub maze: Arc<Maze>,
+}
+
+/// Reads and generates the mazes that the arguments name, in their order.
+///
+/// # Errors
+///
+/// As [`load`] with [`BadFiles::Fail`].
+pub fn load_all(arguments: &[String], rules: Legality) -> Result<Vec<NamedMaze>, Failure> {
+    let sources = load(arguments, rules, BadFiles::Fail)?;
+    let named = sources.into_iter().map(|source| match source {
+        MazeSource::Loaded { name, maze } => NamedMaze { name, maze },
+        MazeSource::Generated(generated) => NamedMaze {
+            name: generated.to_string(),
+            maze: Arc::new(generated.generate()),
+        },
+    });
+    Ok(named.collect())
+}
+
+/// One maze that an argument names, not yet read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
-    /// A generated maze; its name is the specification of it alone.
-    Generated(String, Maze),
+    /// A generated maze.
+    Generated(GeneratedMaze),
     /// A maze that comes with wasmouse.
     Bundled(&'static BundledMaze),
     /// A file.
@@ -142,7 +188,7 @@ impl Source {
     /// What messages and listings call it: the name, the path, or `-`.
     pub fn label(&self) -> String {
         match self {
-            Self::Generated(name, _) => name.clone(),
+            Self::Generated(maze) => maze.to_string(),
             Self::Bundled(maze) => maze.name.to_owned(),
             Self::File(path) => shown(path),
             Self::Stdin => STDIN.to_owned(),
@@ -156,7 +202,7 @@ impl Source {
     /// When it cannot be read or is no maze.
     pub fn read(&self) -> Result<(Maze, Option<Format>), Failure> {
         let bytes = match self {
-            Self::Generated(_, maze) => return Ok((maze.clone(), None)),
+            Self::Generated(maze) => return Ok((maze.generate(), None)),
             Self::Bundled(maze) => maze.text.as_bytes().to_vec(),
             Self::File(path) => File::open(path)
                 .and_then(read_limited)
@@ -168,18 +214,32 @@ impl Source {
         Ok((maze, Some(format)))
     }
 
+    /// The maze for a contest under that name.
+    fn load(&self, name: String, rules: Legality) -> Result<MazeSource, Failure> {
+        // Generated mazes are legal by construction.
+        if let Self::Generated(maze) = self {
+            return Ok(MazeSource::Generated(*maze));
+        }
+        let (maze, _) = self.read()?;
+        if rules == Legality::Contest {
+            require_legal(self, &maze)?;
+        }
+        let maze = Arc::new(maze);
+        Ok(MazeSource::Loaded { name, maze })
+    }
+
     fn parse(&self, bytes: Vec<u8>) -> Result<Parsed, Failure> {
         let failed = |reason: &dyn std::fmt::Display| {
             Failure::input(format!("failed to parse maze `{}`: {reason}", self.label()))
         };
         if bytes.len() > TEXT_BYTES_MAX {
             return Err(failed(&format!(
-                "more than {TEXT_BYTES_MAX} bytes, which no maze file has"
+                "the file has more than {TEXT_BYTES_MAX} bytes"
             )));
         }
         let text = String::from_utf8(bytes).map_err(|error| {
             let place = error.utf8_error().valid_up_to();
-            failed(&format!("byte {place} begins no UTF-8 character"))
+            failed(&format!("byte {place} is not UTF-8"))
                 .hint("save the file as UTF-8 or ASCII text")
         })?;
         format::parse(&text).map_err(|error| match &error {
@@ -196,28 +256,27 @@ impl Source {
             Self::File(path) => path
                 .file_stem()
                 .map_or_else(|| shown(path), |stem| shown(Path::new(stem))),
-            Self::Generated(..) | Self::Bundled(_) | Self::Stdin => self.label(),
+            Self::Generated(_) | Self::Bundled(_) | Self::Stdin => self.label(),
         }
     }
 }
 
-/// The short names, or the labels of those sources that share a short name
-/// with another.
-fn unique_names(sources: &[Source]) -> Vec<String> {
+/// The short names, or the labels of those sources that share a short name with another.
+fn unique_names<'a>(sources: impl Iterator<Item = &'a Source> + Clone) -> Vec<String> {
     let mut labels: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    for source in sources {
-        let same_name = labels.entry(source.short_name()).or_default();
-        same_name.insert(source.label());
-    }
-    let unique = |source: &Source| {
-        let name = source.short_name();
-        if labels[&name].len() == 1 {
-            name
-        } else {
-            source.label()
+    for source in sources.clone() {
+        // The name of a generated maze is unique already, and there can be a million of them.
+        if !matches!(source, Source::Generated(_)) {
+            let same_name = labels.entry(source.short_name()).or_default();
+            same_name.insert(source.label());
         }
+    }
+    let unique = |source: &Source| match source {
+        Source::Generated(_) => String::new(),
+        _ if labels[&source.short_name()].len() == 1 => source.short_name(),
+        _ => source.label(),
     };
-    sources.iter().map(unique).collect()
+    sources.map(unique).collect()
 }
 
 /// What a text that begins with `gen:` stands for.
@@ -236,9 +295,7 @@ pub fn specification(spec: &str) -> Result<GenSpec, Failure> {
 
 fn generated(spec: &str) -> Result<Vec<Source>, Failure> {
     let mazes = specification(spec)?.expand();
-    Ok(mazes
-        .map(|(name, maze)| Source::Generated(name, maze))
-        .collect())
+    Ok(mazes.map(Source::Generated).collect())
 }
 
 /// Reads at most one byte more than a maze file may have, so that neither a
@@ -294,7 +351,7 @@ fn require_legal(source: &Source, maze: &Maze) -> Result<(), Failure> {
     for violation in broken {
         message.push_str(&format!("\n  {violation}"));
     }
-    Err(Failure::input(message).hint("use it as it is with --lenient"))
+    Err(Failure::input(message).hint("--lenient accepts it"))
 }
 
 fn unreadable(path: &Path, error: &io::Error) -> Failure {
@@ -306,37 +363,16 @@ fn unknown(spec: &str) -> Failure {
         "unknown maze `{}`: no bundled maze, file or folder has this name",
         shown(Path::new(spec))
     );
-    let mut names: Vec<(f64, &str)> = bundled()
-        .iter()
-        .map(|maze| (strsim::jaro_winkler(spec, maze.name), maze.name))
-        .filter(|&(similarity, _)| similarity >= SIMILARITY_MIN)
-        .collect();
-    names.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let names: Vec<String> = names
-        .iter()
-        .take(HINTS_MAX)
-        .map(|(_, name)| format!("`{name}`"))
-        .collect();
-    Failure::input(message).hint(if names.is_empty() {
-        let all: Vec<&str> = bundled().iter().map(|maze| maze.name).collect();
-        format!("bundled mazes are {}", all.join(", "))
-    } else {
-        format!("did you mean {}?", names.join(" or "))
-    })
+    let names = bundled().iter().map(|maze| maze.name);
+    Failure::input(message).hint(suggestion(spec, names.clone()).unwrap_or_else(|| {
+        let names: Vec<&str> = names.collect();
+        format!("bundled mazes are {}", names.join(", "))
+    }))
 }
 
-/// A path for people: control characters, which could play with a terminal, are
-/// escaped.
+/// A path for people.
 fn shown(path: &Path) -> String {
-    let mut text = String::new();
-    for character in path.display().to_string().chars() {
-        if character.is_control() {
-            text.extend(character.escape_debug());
-        } else {
-            text.push(character);
-        }
-    }
-    text
+    for_terminal(&path.display().to_string())
 }
 
 #[cfg(test)]
@@ -362,28 +398,28 @@ mod tests {
     }
 
     fn names(specs: &[String]) -> Vec<String> {
-        let mazes = load(specs, Legality::Lenient).expect("mazes");
-        mazes.into_iter().map(|maze| maze.name).collect()
+        let mazes = load(specs, Legality::Lenient, BadFiles::Fail).expect("mazes");
+        mazes.iter().map(MazeSource::name).collect()
     }
 
     fn check_error(spec: &str, rules: Legality, expected: &str) {
-        let failure = load(&[spec.to_owned()], rules).expect_err(spec);
+        let failure = load(&[spec.to_owned()], rules, BadFiles::Fail).expect_err(spec);
         assert_eq!(failure.to_string().replace(spec, "SPEC"), expected);
         assert_eq!(failure.exit(), super::super::exit::Exit::Input);
     }
 
     #[test]
     fn bundled_mazes_are_found_by_name() {
-        let mazes = load(&[OFFICIAL.to_owned()], Legality::Contest).expect("legal");
-        assert_eq!(mazes[0].name, OFFICIAL);
+        assert_eq!(names(&[OFFICIAL.to_owned()]), [OFFICIAL]);
     }
 
     #[test]
     fn generated_mazes_are_named_by_their_own_specification() {
         let specs = ["gen:tree:12:1..=2".to_owned()];
-        let mazes = load(&specs, Legality::Contest).expect("legal");
-        let names: Vec<&str> = mazes.iter().map(|maze| &maze.name[..]).collect();
-        assert_eq!(names, ["gen:tree,loops=12:12:1", "gen:tree,loops=12:12:2"]);
+        assert_eq!(
+            names(&specs),
+            ["gen:tree,loops=12:12:1", "gen:tree,loops=12:12:2"]
+        );
     }
 
     #[test]
@@ -435,11 +471,27 @@ mod tests {
             "error: failed to generate `SPEC`: dimension: expected an even number from 12 to 20, \
              or a range such as `12..=20`, found `13`",
         );
-        let twice = load(&["-".to_owned(), "-".to_owned()], Legality::Lenient);
+        let twice = load(
+            &["-".to_owned(), "-".to_owned()],
+            Legality::Lenient,
+            BadFiles::Fail,
+        );
         assert_eq!(
             twice.expect_err("one standard input").to_string(),
             "error: standard input is given as a maze twice"
         );
+    }
+
+    #[test]
+    fn bad_files_in_a_folder_are_skipped() {
+        let good = bundled()[0].text;
+        let folder = folder_of(&[("a.txt", good), ("b.txt", "no maze"), ("c.txt", good)]);
+        let all = [spec(&folder, "")];
+        let mazes = load(&all, Legality::Contest, BadFiles::Skip).expect("two mazes");
+        assert_eq!(mazes.len(), 2);
+        load(&all, Legality::Contest, BadFiles::Fail).expect_err("one bad maze");
+        let bad = [spec(&folder, "b.txt")];
+        load(&bad, Legality::Contest, BadFiles::Skip).expect_err("it was named by itself");
     }
 
     #[test]
@@ -462,11 +514,11 @@ mod tests {
             ),
             (
                 "huge.txt",
-                "error: failed to parse maze `SPEC`: more than 262144 bytes, which no maze file has",
+                "error: failed to parse maze `SPEC`: the file has more than 262144 bytes",
             ),
             (
                 "latin1.txt",
-                "error: failed to parse maze `SPEC`: byte 3 begins no UTF-8 character\n\n\
+                "error: failed to parse maze `SPEC`: byte 3 is not UTF-8\n\n\
                  hint: save the file as UTF-8 or ASCII text",
             ),
         ];
@@ -479,7 +531,7 @@ mod tests {
             "error: maze `SPEC` breaks 2 contest rules:\n  \
              the dimension is an even number from 12 to 20: it is 3\n  \
              the start is open at the top only: (0, 0) is open up, right\n\n\
-             hint: use it as it is with --lenient",
+             hint: --lenient accepts it",
         );
     }
 }

@@ -1,54 +1,49 @@
 //! The command line: the only layer that touches files and the terminal.
 //!
-//! [`main`] reads like a table of contents: parse, one `match` over the
-//! commands, one place that turns failures into exit codes. Each command has a
-//! file with its arguments and a `run` function; typed arguments become domain
-//! values there, and nothing below sees a flag.
+//! [`main`] parses the arguments, matches on the command, and turns failures into exit codes in
+//! one place. Each command has a file with its arguments and a `run` function; typed arguments
+//! become domain values there, and nothing below sees a flag. No command calls another one.
 
-/// Tells the person at the terminal something, formatted as by `format!`, on
-/// standard error.
-macro_rules! tell {
-    ($($arguments:tt)*) => {
-        $crate::cli::output::tell(format_args!($($arguments)*))
-    };
-}
-
-mod at_hand;
+mod again;
+mod backtrace;
 mod build;
 mod completions;
 mod demo;
 mod exit;
-mod explain;
 mod failure;
 mod inspect;
 mod interrupt;
-mod journal;
-mod list;
+mod log;
 mod man;
 mod maze;
 mod mazes;
 mod new;
 mod output;
 mod page;
+mod play;
+mod reproduce;
+mod resolve;
+mod robot_list;
 mod robots;
 mod run;
 mod setup;
-mod study;
+mod suggest;
 mod terminal;
 mod toolchain;
-mod twice;
+mod verdict;
 mod verify;
 mod watch;
 mod worker;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, Parser, Subcommand};
 
 use exit::{EXIT_CODES_HELP, Exit};
 use failure::Failure;
+use output::message;
 
-/// A referee for virtual micromouse contests of WebAssembly robots.
+/// Run virtual micromouse contests of WebAssembly robots
 #[derive(Parser)]
 #[command(name = "wasmouse", version, about, after_help = EXIT_CODES_HELP)]
 struct Cli {
@@ -61,16 +56,15 @@ enum Command {
     Demo(demo::Args),
     Run(run::Args),
     Verify(verify::Args),
-    Robots(list::Args),
+    Robots(robot_list::Args),
     Inspect(inspect::Args),
-    Study(study::Args),
-    /// Look at mazes: check, convert, draw, solve and generate them.
+    /// Check, convert, draw, solve and generate mazes
     Maze(maze::Args),
     New(new::Args),
     Build(build::Args),
     Completions(completions::Args),
     Man(man::Args),
-    /// Not for people: a worker process of a contest.
+    /// A worker process of a contest; started by wasmouse itself
     #[command(hide = true)]
     Worker(worker::Args),
 }
@@ -86,20 +80,19 @@ pub fn main() -> ExitCode {
         Command::Demo(args) => demo::run(&args),
         Command::Run(args) => run::run(&args),
         Command::Verify(args) => verify::run(&args),
-        Command::Robots(args) => list::run(&args),
+        Command::Robots(args) => robot_list::run(&args),
         Command::Inspect(args) => inspect::run(&args),
-        Command::Study(args) => study::run(&args),
         Command::Maze(args) => maze::run(args),
         Command::New(args) => new::run(&args),
         Command::Build(args) => build::run(&args),
-        Command::Completions(args) => completions::run(&args),
-        Command::Man(args) => man::run(&args),
+        Command::Completions(args) => completions::run(&args, Cli::command()),
+        Command::Man(args) => man::run(&args, Cli::command()),
         Command::Worker(args) => worker::run(&args),
     };
     match outcome {
         Ok(exit) => exit.into(),
         Err(failure) => {
-            tell!("{failure}");
+            message!("{failure}");
             failure.exit().into()
         }
     }
@@ -107,8 +100,6 @@ pub fn main() -> ExitCode {
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory as _;
-
     use super::*;
 
     #[test]

@@ -27,6 +27,10 @@ const TEMPLATES: &[(&str, &str)] = &[
     ("README.md", include_str!("../../templates/new/README.md")),
     (".gitignore", include_str!("../../templates/new/gitignore")),
     ("src/lib.rs", include_str!("../../templates/new/lib.rs")),
+    (
+        ".github/workflows/ci.yml",
+        include_str!("../../templates/new/ci.yml"),
+    ),
 ];
 
 /// The longest name of a project. Unit: bytes. File systems allow 255 for a
@@ -55,12 +59,12 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     check_name(name)?;
     if path.symlink_metadata().is_ok() {
         return Err(
-            Failure::input(format_args!("`{}` is there already", path.display()))
+            Failure::input(format_args!("`{}` already exists", path.display()))
                 .hint("choose another name, or remove it"),
         );
     }
     create(path, name).map_err(|error| {
-        Failure::host(format_args!(
+        Failure::internal(format_args!(
             "failed to create `{}`: {error}",
             path.display()
         ))
@@ -101,7 +105,7 @@ fn is_reserved(name: &str) -> bool {
         override priv pub ref return self static struct super trait true try type typeof unsafe \
         unsized use virtual where while yield";
     const CRATES: &str = "alloc build core deps examples incremental proc_macro proc-macro std \
-        test wasmouse-sdk wasmouse_sdk wit-bindgen wit_bindgen";
+        test wasmouse-sdk wasmouse_sdk";
     const DEVICES: &str = "con prn aux nul com1 com2 com3 com4 com5 com6 com7 com8 com9 lpt1 lpt2 \
         lpt3 lpt4 lpt5 lpt6 lpt7 lpt8 lpt9";
     [KEYWORDS, CRATES, DEVICES]
@@ -169,6 +173,8 @@ mod tests {
         for file in [
             ".gitignore",
             "src/lib.rs",
+            ".github/workflows/ci.yml",
+            "vendor/wasmouse-sdk/src/bindings/generated.rs",
             "vendor/wasmouse-sdk/src/lib.rs",
             "vendor/wit/robot.wit",
         ] {
@@ -180,7 +186,9 @@ mod tests {
         let sdk: toml::Table = toml::from_str(&read("vendor/wasmouse-sdk/Cargo.toml")).unwrap();
         assert_eq!(sdk["package"]["name"].as_str(), Some("wasmouse-sdk"));
         assert_eq!(sdk["package"]["edition"].as_str(), Some("2024"));
-        assert!(sdk["dependencies"]["wit-bindgen"].get("version").is_some());
+        // A project builds offline: the SDK is its only dependency and has none.
+        assert_eq!(sdk.get("dependencies"), None);
+        assert!(read(".github/workflows/ci.yml").contains("wasmouse run my-robot.wasm"));
         assert!(!read("vendor/wasmouse-sdk/Cargo.toml").contains("workspace"));
     }
 
@@ -194,7 +202,7 @@ mod tests {
         assert_eq!(entries(&path), 0);
         assert_eq!(entries(folder.path()), 1);
         let lost = folder.path().join("lost/my-robot");
-        assert_eq!(new(&lost).unwrap_err().exit(), Exit::Host);
+        assert_eq!(new(&lost).unwrap_err().exit(), Exit::Internal);
         assert_eq!(entries(folder.path()), 1);
     }
 

@@ -1,75 +1,177 @@
-//! Where commands put their results: standard output and files; and what they
-//! say about them: standard error.
+//! Where commands write: data to standard output and files, messages to standard error.
 
 use std::fmt;
 use std::fs;
-use std::io::{self, Write as _};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
 
 use super::failure::Failure;
 
-/// Writes `text` to standard output.
+/// Prints a message for the user to standard error, formatted as by `format!`.
+macro_rules! message {
+    ($($arguments:tt)*) => {
+        $crate::cli::output::write_message(format_args!($($arguments)*))
+    };
+}
+
+pub(in crate::cli) use message;
+
+/// Writes text to standard output.
 ///
-/// A reader that has heard enough, such as `head`, is no failure.
+/// A reader that closes the pipe early, such as `head`, is no failure.
 ///
 /// # Errors
 ///
 /// When standard output cannot be written for another reason, such as a full disk.
 pub fn print(text: &str) -> Result<(), Failure> {
-    let mut stdout = io::stdout().lock();
+    let mut stdout = Stdout::default();
     let written = stdout
         .write_all(text.as_bytes())
         .and_then(|()| stdout.flush());
-    match written {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::host(format!(
-            "failed to write standard output: {error}"
-        ))),
-        _ => Ok(()),
+    written.map_err(|error| stdout_failure(&error))
+}
+
+/// The failure to write standard output.
+pub fn stdout_failure(error: &io::Error) -> Failure {
+    Failure::internal(format!("failed to write to standard output: {error}"))
+}
+
+/// Standard output that goes on writing into nothing when its reader has closed the pipe.
+#[derive(Debug, Default)]
+pub struct Stdout {
+    closed: bool,
+}
+
+impl Stdout {
+    fn unless_closed<T>(&mut self, written: io::Result<T>, otherwise: T) -> io::Result<T> {
+        match written {
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
+                self.closed = true;
+                Ok(otherwise)
+            }
+            other => other,
+        }
+    }
+}
+
+impl Write for Stdout {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if self.closed {
+            return Ok(bytes.len());
+        }
+        let written = io::stdout().lock().write(bytes);
+        self.unless_closed(written, bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        if self.closed {
+            return Ok(());
+        }
+        let flushed = io::stdout().lock().flush();
+        self.unless_closed(flushed, ())
     }
 }
 
 /// Writes a line to standard error.
 ///
-/// Whether anybody hears it decides nothing: results and exit codes are the same
-/// when standard error is closed, or on a full disk.
-pub fn tell(line: fmt::Arguments<'_>) {
+/// Whether it can be written decides nothing: results and exit codes are the same when
+/// standard error is closed, or on a full disk.
+pub fn write_message(line: fmt::Arguments<'_>) {
     let _ = writeln!(anstream::stderr(), "{line}");
 }
 
-/// What to do with a file that is there already.
+/// What to do with a file that already exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Existing {
-    /// Leave it and fail.
+    /// Keep it and fail.
     Keep,
-    /// Put the new one in its place: `--force`.
+    /// Replace it: `--force`.
     Replace,
 }
 
-/// Writes a file so that its name never stands for half of it: the bytes go to
-/// a temporary file beside it, which is renamed when it is complete.
+impl Existing {
+    /// What the flag `--force` asks for.
+    pub const fn from_flag(force: bool) -> Self {
+        if force { Self::Replace } else { Self::Keep }
+    }
+}
+
+/// Writes a file so that its name never stands for half of it.
 ///
 /// # Errors
 ///
-/// When the file is there already and is to be kept, when a folder or a device
-/// has its name, or when it cannot be written.
+/// As [`Draft::create`] and [`Draft::commit`].
 pub fn save(path: &Path, bytes: &[u8], existing: Existing) -> Result<(), Failure> {
-    let target = check(path, existing)?;
-    let failed = |error: io::Error| failure(path, &error);
-    let folder = folder(&target);
-    let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt as _;
-        // As for any new file; without it, temporary files are private.
-        builder.permissions(fs::Permissions::from_mode(0o666));
+    let mut draft = Draft::create(path, existing)?;
+    let written = draft.write_all(bytes);
+    written.map_err(|error| failure(path, &error))?;
+    draft.commit()
+}
+
+/// A file that is being written under a temporary name, beside the one that it will replace.
+#[derive(Debug)]
+pub struct Draft {
+    path: PathBuf,
+    /// Behind symbolic links, so that they stay.
+    target: PathBuf,
+    file: io::BufWriter<NamedTempFile>,
+    existing: Existing,
+}
+
+impl Draft {
+    /// Begins to write a file. Called before long work, so that it is not lost over a name.
+    ///
+    /// # Errors
+    ///
+    /// When the file exists and is to be kept, when a folder or a device has its name, which a
+    /// rename would destroy, or when its folder cannot be written to.
+    pub fn create(path: &Path, existing: Existing) -> Result<Self, Failure> {
+        let target = target(path, existing)?;
+        let mut builder = tempfile::Builder::new();
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt as _;
+            // As for any new file; without it, temporary files are private.
+            builder.permissions(fs::Permissions::from_mode(0o666));
+        }
+        let file = builder
+            .tempfile_in(folder(&target))
+            .map_err(|error| failure(path, &error))?;
+        Ok(Self {
+            path: path.to_owned(),
+            target,
+            file: io::BufWriter::new(file),
+            existing,
+        })
     }
-    let mut file = builder.tempfile_in(folder).map_err(failed)?;
-    file.write_all(bytes).map_err(failed)?;
-    match existing {
-        Existing::Keep => file.persist_noclobber(&target).map(drop),
-        Existing::Replace => file.persist(&target).map(drop),
+
+    /// Puts the complete file in its place.
+    ///
+    /// # Errors
+    ///
+    /// When it cannot be written or renamed.
+    pub fn commit(self) -> Result<(), Failure> {
+        let failed = |error: &io::Error| failure(&self.path, error);
+        let file = self.file.into_inner();
+        let file = file.map_err(|error| failed(error.error()))?;
+        let persisted = match self.existing {
+            Existing::Keep => file.persist_noclobber(&self.target),
+            Existing::Replace => file.persist(&self.target),
+        };
+        persisted.map(drop).map_err(|error| failed(&error.error))
     }
-    .map_err(|error| failed(error.error))
+}
+
+impl Write for Draft {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
 }
 
 fn folder(target: &Path) -> &Path {
@@ -79,15 +181,7 @@ fn folder(target: &Path) -> &Path {
     }
 }
 
-/// The file that [`save`] would write: behind symbolic links, so that they stay,
-/// and never a folder or a device, which a rename would destroy.
-///
-/// Called before long work, so that it is not lost over a name.
-///
-/// # Errors
-///
-/// As [`save`], as far as it can be known beforehand.
-pub fn check(path: &Path, existing: Existing) -> Result<PathBuf, Failure> {
+fn target(path: &Path, existing: Existing) -> Result<PathBuf, Failure> {
     match fs::metadata(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             let folder = folder(path);
@@ -95,7 +189,7 @@ pub fn check(path: &Path, existing: Existing) -> Result<PathBuf, Failure> {
                 Ok(path.to_owned())
             } else {
                 Err(Failure::input(format!(
-                    "failed to write `{}`: there is no folder `{}`",
+                    "failed to write `{}`: the folder `{}` does not exist",
                     path.display(),
                     folder.display()
                 )))
@@ -107,7 +201,7 @@ pub fn check(path: &Path, existing: Existing) -> Result<PathBuf, Failure> {
             path.display()
         ))),
         Ok(_) if existing == Existing::Keep => Err(Failure::input(format!(
-            "failed to write `{}`: the file is there already",
+            "failed to write `{}`: the file already exists",
             path.display()
         ))
         .hint("replace it with --force")),
@@ -116,7 +210,7 @@ pub fn check(path: &Path, existing: Existing) -> Result<PathBuf, Failure> {
 }
 
 fn failure(path: &Path, error: &io::Error) -> Failure {
-    Failure::host(format!("failed to write `{}`: {error}", path.display()))
+    Failure::internal(format!("failed to write `{}`: {error}", path.display()))
 }
 
 #[cfg(test)]
@@ -128,7 +222,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let path = folder.path().join("a.txt");
         save(&path, b"one", Existing::Keep).expect("a new file");
-        let failure = save(&path, b"two", Existing::Keep).expect_err("it is there");
+        let failure = save(&path, b"two", Existing::Keep).expect_err("it exists");
         assert!(failure.to_string().contains("--force"), "{failure}");
         assert_eq!(fs::read(&path).expect("a file"), b"one");
         save(&path, b"two", Existing::Replace).expect("forced");
@@ -138,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn folders_and_lost_folders_are_refused() {
+    fn folders_and_missing_folders_are_rejected() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let failure = save(folder.path(), b"", Existing::Replace).expect_err("a folder");
         assert!(failure.to_string().contains("not a regular file"));

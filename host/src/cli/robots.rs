@@ -1,8 +1,8 @@
-//! From what users write for a robot to entrants of a contest: [`load`].
+//! From what users write for a robot to entrants of a contest.
 //!
-//! A robot is a bundled one by name or a file; `:N` behind it chooses a setting.
-//! A file that is refused is no failure here: the contest goes on without it and
-//! the report says why.
+//! A robot is a bundled one by name, a file, a folder of files or a robot project; a name and a
+//! variant can be given to it. A file that is rejected is no failure here: the contest goes on
+//! without it and the report says why.
 
 use std::fs;
 use std::io::Read as _;
@@ -10,25 +10,36 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use wasmouse_core::Digest;
+use wasmouse_engine::admission::Rejection;
+use wasmouse_engine::bundled::{BundledRobot, Variant, bundled, find};
+use wasmouse_engine::{AdmittedRobot, CacheUse, InfrastructureError, LocalExecutor, Trust};
+
+use super::build;
 use super::failure::Failure;
+use super::output::message;
+use super::suggest::suggestion;
 use crate::contest::Entrant;
-use crate::report::visible;
-use crate::robot::bundled::{BundledRobot, Setting, bundled, find};
-use crate::robot::{CacheUse, Digest, HostError, Player, Referee, Refusal, Trust};
+use crate::report::escape::for_terminal;
 
 /// What a user may write for a robot, for the long help of commands.
 pub const SPECIFICATION_HELP: &str = "\
 A robot is one of:
   flood          the name of a bundled robot (see `wasmouse robots`)
   bot.wasm       a component, or a core module that can be turned into one
-  flood:1        either with the number of a setting behind it; 0 without.
-                 Settings of bundled robots also have names";
+  submissions    a folder: all its .wasm files by name, without subfolders
+  my-robot       a robot project (a folder with a Cargo.toml): it is built first
+  flood:certain  any of these with a variant behind it, by number or, for bundled
+                 robots, by name; 0 without
+  ann=bot.wasm   a file, with the name that results call it";
 
-/// A robot that a specification names, not yet read.
+/// A robot that the command line names, not yet read.
 #[derive(Clone, Debug)]
-pub struct Specification {
+pub struct RobotSpec {
     source: Source,
-    setting: u32,
+    variant: u32,
+    /// The name that the user gave it.
+    name: Option<String>,
 }
 
 #[derive(Clone, Debug)]
@@ -37,69 +48,171 @@ enum Source {
     File(PathBuf),
 }
 
-impl Specification {
-    /// Whether a text that may mean a robot or a maze means a robot: a bundled
-    /// name or a `.wasm` file, with or without a setting.
-    pub fn is_meant_by(text: &str) -> bool {
-        let names_robot = |name: &str| find(name).is_some() || has_wasm_extension(Path::new(name));
-        names_robot(text) || split(text).is_some_and(|(name, _)| names_robot(name))
+/// Whether an argument that may mean a robot or a maze means a robot.
+pub fn is_robot(argument: &str) -> bool {
+    let argument = split_name(argument).map_or(argument, |(_, rest)| rest);
+    let names_robot = |text: &str| {
+        let path = Path::new(text);
+        find(text).is_some()
+            || has_wasm_extension(path)
+            || build::is_project(path)
+            || (path.is_dir() && !wasm_files(path).unwrap_or_default().is_empty())
+    };
+    names_robot(argument) || split_variant(argument).is_some_and(|(text, _)| names_robot(text))
+}
+
+/// The robots that an argument names; a robot project is built.
+///
+/// # Errors
+///
+/// When a bundled robot does not have the variant, a folder has no robots, or a project cannot
+/// be built.
+pub fn resolve(argument: &str) -> Result<Vec<RobotSpec>, Failure> {
+    let (name, text) = match split_name(argument) {
+        Some((name, rest)) => (Some(name.to_owned()), rest),
+        None => (None, argument),
+    };
+    let (text, variant) = match split_variant(text) {
+        _ if find(text).is_some() || Path::new(text).exists() => (text, None),
+        Some((rest, variant)) if find(rest).is_some() || variant.parse::<u32>().is_ok() => {
+            (rest, Some(variant))
+        }
+        _ => (text, None),
+    };
+    if let Some(robot) = find(text) {
+        let variant = variant.map_or(Ok(0), |it| bundled_variant(robot, it))?;
+        let source = Source::Bundled(robot);
+        return Ok(vec![RobotSpec {
+            source,
+            variant,
+            name,
+        }]);
+    }
+    let variant = variant.map_or(0, |it| it.parse().expect("checked to be a number above"));
+    let path = Path::new(text);
+    let files = if build::is_project(path) {
+        vec![build::build_project(path)?]
+    } else if path.is_dir() {
+        folder(path)?
+    } else {
+        warn_if_stale(path);
+        vec![path.to_owned()]
+    };
+    if name.is_some() && files.len() > 1 {
+        let message = format!("`{}` names more than one robot", for_terminal(argument));
+        return Err(Failure::usage(message).hint("give a name to a single file"));
+    }
+    let specs = files.into_iter().map(|file| RobotSpec {
+        source: Source::File(file),
+        variant,
+        name: name.clone(),
+    });
+    Ok(specs.collect())
+}
+
+/// Takes `NAME=` off the front of an argument. A file whose own name has a `=` in it is meant
+/// as it is.
+fn split_name(argument: &str) -> Option<(&str, &str)> {
+    let (name, rest) = argument.split_once('=')?;
+    let is_name = !name.is_empty() && !name.contains(['/', '\\', ':']);
+    (is_name && !rest.is_empty() && !Path::new(argument).exists()).then_some((name, rest))
+}
+
+/// Takes what may be a variant off the end of an argument.
+fn split_variant(text: &str) -> Option<(&str, &str)> {
+    text.rsplit_once(':').filter(|(rest, _)| !rest.is_empty())
+}
+
+/// The number of a bundled robot's variant, given by number or name.
+fn bundled_variant(robot: &BundledRobot, text: &str) -> Result<u32, Failure> {
+    let is_meant = |variant: &&Variant| {
+        variant.name == text || text.parse().is_ok_and(|value: u32| value == variant.value)
+    };
+    if let Some(variant) = robot.variants.iter().find(is_meant) {
+        return Ok(variant.value);
+    }
+    let text = for_terminal(text);
+    let failure = Failure::usage(format!("robot `{}` has no variant `{text}`", robot.name));
+    if robot.variants.is_empty() {
+        return Err(failure.hint("it has no variants; leave the colon out"));
+    }
+    let names: Vec<&str> = robot.variants.iter().map(|it| it.name).collect();
+    Err(failure.hint(format!("its variants are {}", names.join(", "))))
+}
+
+/// The robots in a folder.
+///
+/// # Errors
+///
+/// When the folder cannot be read or has no robots.
+pub fn folder(path: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let shown = for_terminal(&path.display().to_string());
+    let files = wasm_files(path).map_err(|error| {
+        Failure::input(format!("failed to read robots from `{shown}`: {error}"))
+    })?;
+    if files.is_empty() {
+        return Err(Failure::input(format!("folder `{shown}` has no robots"))
+            .hint("robots are files that end in .wasm"));
+    }
+    Ok(files)
+}
+
+/// The files in a folder that end in `.wasm`, by name.
+fn wasm_files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if has_wasm_extension(&path) && path.is_file() {
+            files.push(path);
+        }
+    }
+    files.sort();
+    Ok(files)
+}
+
+/// Whether a file has the extension of robots.
+fn has_wasm_extension(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("wasm"))
+}
+
+/// Warns about a component beside a robot project whose sources are newer.
+fn warn_if_stale(component: &Path) {
+    let Some(project) = component.parent().map(|it| match it.to_str() {
+        Some("") => Path::new("."),
+        _ => it,
+    }) else {
+        return;
+    };
+    if let Some(source) = build::newer_source(project, component) {
+        message!(
+            "warning: `{}` is older than `{}`\n  hint: rebuild it with `wasmouse build {}`",
+            for_terminal(&component.display().to_string()),
+            for_terminal(&source.display().to_string()),
+            for_terminal(&project.display().to_string()),
+        );
+    }
+}
+
+impl RobotSpec {
+    /// A bundled robot in its default variant.
+    pub const fn bundled(robot: &'static BundledRobot) -> Self {
+        Self {
+            source: Source::Bundled(robot),
+            variant: 0,
+            name: None,
+        }
     }
 
-    /// Whose code it is: bundled robots are the host's own.
+    /// Whose code it is: bundled robots are trusted.
     pub const fn trust(&self) -> Trust {
         match self.source {
             Source::Bundled(_) => Trust::Trusted,
-            Source::File(_) => Trust::Stranger,
+            Source::File(_) => Trust::Untrusted,
         }
     }
 
-    /// The robot that this text means: a bundled name, or else a file whatever
-    /// it is called.
-    ///
-    /// # Errors
-    ///
-    /// When a bundled robot does not have the setting.
-    pub fn parse(text: &str) -> Result<Self, Failure> {
-        if let Some(robot) = find(text) {
-            let source = Source::Bundled(robot);
-            return Ok(Self { source, setting: 0 });
-        }
-        let Some((name, setting)) = split(text) else {
-            return Ok(Self::file(text, 0));
-        };
-        if let Some(robot) = find(name) {
-            let setting = bundled_setting(robot, setting)?;
-            let source = Source::Bundled(robot);
-            return Ok(Self { source, setting });
-        }
-        // A colon may be part of a file's name.
-        Ok(match setting.parse() {
-            Ok(setting) => Self::file(name, setting),
-            Err(_) => Self::file(text, 0),
-        })
-    }
-
-    /// All bundled robots, each once for every setting.
-    pub fn bundled_in_every_setting() -> Vec<Self> {
-        let mut all = Vec::new();
-        for robot in bundled() {
-            let source = Source::Bundled(robot);
-            let values = robot.settings.iter().map(|setting| setting.value);
-            let only = robot.settings.is_empty().then_some(0);
-            all.extend(values.chain(only).map(|setting| Self {
-                source: source.clone(),
-                setting,
-            }));
-        }
-        all
-    }
-
-    fn file(path: &str, setting: u32) -> Self {
-        let source = Source::File(path.into());
-        Self { source, setting }
-    }
-
-    /// The bytes of the robot.
+    /// The bytes of the robot, at most one more than it may have.
     ///
     /// # Errors
     ///
@@ -111,87 +224,40 @@ impl Specification {
         }
     }
 
-    /// Whether it comes with the host.
-    pub const fn is_bundled(&self) -> bool {
-        matches!(self.source, Source::Bundled(_))
-    }
-
-    /// The bundled name or the file name without its ending.
-    pub fn robot_name(&self) -> String {
-        match &self.source {
-            Source::Bundled(robot) => robot.name.to_owned(),
-            Source::File(path) => path
-                .file_stem()
-                .unwrap_or(path.as_os_str())
-                .to_string_lossy()
-                .into_owned(),
-        }
-    }
-
-    /// The name of a bundled robot's setting, the number of a file's; `None` of
-    /// robots without settings and of files with the setting 0.
-    pub fn setting_name(&self) -> Option<String> {
-        match &self.source {
-            Source::Bundled(robot) => {
-                let mut settings = robot.settings.iter();
-                let setting = settings.find(|it| it.value == self.setting)?;
-                Some(setting.name.to_owned())
-            }
-            Source::File(_) => (self.setting != 0).then(|| self.setting.to_string()),
-        }
-    }
-
-    /// The bundled name or the file name without its ending, and the setting.
+    /// What results call it if nothing else is called so: the given name, or the bundled name
+    /// or file name without its extension, with the variant.
     fn short_name(&self) -> String {
-        self.with_setting(self.robot_name())
+        match (&self.name, &self.source) {
+            (Some(name), _) => self.with_variant(name.clone()),
+            (None, Source::Bundled(robot)) => self.with_variant(robot.name.to_owned()),
+            (None, Source::File(path)) => {
+                let stem = path.file_stem().unwrap_or(path.as_os_str());
+                self.with_variant(stem.to_string_lossy().into_owned())
+            }
+        }
     }
 
-    /// The bundled name or the whole path, and the setting.
+    /// A name that no other robot has: with the whole path.
     fn label(&self) -> String {
         match &self.source {
             Source::Bundled(_) => self.short_name(),
-            Source::File(path) => self.with_setting(path.display().to_string()),
+            Source::File(path) => self.with_variant(path.display().to_string()),
         }
     }
 
-    fn with_setting(&self, name: String) -> String {
-        match self.setting {
+    /// The name with the variant, by name where it has one.
+    fn with_variant(&self, name: String) -> String {
+        if let Source::Bundled(robot) = &self.source {
+            let mut variants = robot.variants.iter();
+            if let Some(variant) = variants.find(|it| it.value == self.variant) {
+                return format!("{name}:{}", variant.name);
+            }
+        }
+        match self.variant {
             0 => name,
-            setting => format!("{name}:{setting}"),
+            variant => format!("{name}:{variant}"),
         }
     }
-}
-
-/// Takes what may be a setting off the end of a specification.
-fn split(text: &str) -> Option<(&str, &str)> {
-    text.rsplit_once(':').filter(|(name, _)| !name.is_empty())
-}
-
-/// The number of a bundled robot's setting, given as a number or by name.
-fn bundled_setting(robot: &BundledRobot, text: &str) -> Result<u32, Failure> {
-    let is_meant = |setting: &&Setting| {
-        setting.name == text || text.parse().is_ok_and(|value: u32| value == setting.value)
-    };
-    if let Some(setting) = robot.settings.iter().find(is_meant) {
-        return Ok(setting.value);
-    }
-    let text = visible(text);
-    let failure = Failure::usage(format!("robot `{}` has no setting `{text}`", robot.name));
-    Err(if robot.settings.is_empty() {
-        failure.hint("it has no settings: leave the colon out")
-    } else {
-        let known = robot.settings.iter();
-        let known: Vec<String> = known
-            .map(|setting| format!("{} ({})", setting.value, setting.name))
-            .collect();
-        failure.hint(format!("its settings are {}", known.join(", ")))
-    })
-}
-
-/// Whether a file has the ending of robots.
-pub fn has_wasm_extension(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|extension| extension.eq_ignore_ascii_case("wasm"))
 }
 
 /// Reads at most one byte more than a robot may have.
@@ -200,14 +266,10 @@ pub fn has_wasm_extension(path: &Path) -> bool {
 ///
 /// When the file cannot be read.
 pub fn read_file(path: &Path, bytes_max: u64) -> Result<Vec<u8>, Failure> {
-    let shown = visible(&path.display().to_string());
+    let shown = for_terminal(&path.display().to_string());
     let failed = |error: std::io::Error| {
-        let failure = Failure::input(format!("failed to read robot `{shown}`: {error}"));
-        let names: Vec<&str> = bundled().iter().map(|robot| robot.name).collect();
-        failure.hint(format!(
-            "give a .wasm file or one of the bundled robots: {}",
-            names.join(", ")
-        ))
+        Failure::input(format!("failed to read robot `{shown}`: {error}"))
+            .hint(unknown_hint(&path.to_string_lossy()))
     };
     let file = fs::File::open(path).map_err(failed)?;
     let mut bytes = Vec::new();
@@ -217,99 +279,130 @@ pub fn read_file(path: &Path, bytes_max: u64) -> Result<Vec<u8>, Failure> {
     Ok(bytes)
 }
 
-/// Reads the robots and asks the host to admit them.
+/// What to try instead of a robot that does not exist.
+pub fn unknown_hint(text: &str) -> String {
+    let names = bundled().iter().map(|robot| robot.name);
+    suggestion(text, names.clone()).unwrap_or_else(|| {
+        let names: Vec<&str> = names.collect();
+        format!(
+            "give a .wasm file, a folder of them, or one of the bundled robots: {}",
+            names.join(", ")
+        )
+    })
+}
+
+/// Reads the robots and asks the executor to admit them.
 ///
 /// # Errors
 ///
-/// When a file cannot be read, or a robot is given twice; a robot that is refused
-/// is an entrant all the same.
-pub fn load(specifications: &[Specification], referee: &Referee) -> Result<Vec<Entrant>, Failure> {
-    let mut labels: Vec<String> = specifications.iter().map(Specification::label).collect();
-    labels.sort();
-    if let Some(twice) = labels.windows(2).find(|pair| pair[0] == pair[1]) {
-        let message = format!("robot `{}` is given twice", visible(&twice[0]));
-        return Err(Failure::usage(message).hint("--repeat plays a robot more than once"));
-    }
-    let mut entrants = Vec::with_capacity(specifications.len());
-    for specification in specifications {
-        let bytes = specification.read(referee.rules().limits.component_bytes_max)?;
-        let name = unique_name(specification, specifications);
-        let admission = admit(referee, &bytes, specification.trust())?;
+/// When a file cannot be read, or two robots have the same name; a robot that is rejected is an
+/// entrant all the same.
+pub fn load(specs: &[RobotSpec], executor: &LocalExecutor) -> Result<Vec<Entrant>, Failure> {
+    let names = unique_names(specs)?;
+    let bytes_max = executor.limits().admission.component_bytes_max;
+    let mut entrants: Vec<Entrant> = Vec::with_capacity(specs.len());
+    for (spec, name) in specs.iter().zip(names) {
+        let bytes = spec.read(bytes_max)?;
+        let digest = Digest::of(&bytes);
+        // One file takes part once for each variant, and is admitted once.
+        let known = entrants.iter().find(|it| it.digest == digest);
+        let admission = match known {
+            Some(known) => known.admission.clone(),
+            None => admit(executor, &bytes, spec.trust())?,
+        };
+        let same = |it: &&Entrant| it.digest == digest && it.variant == spec.variant;
+        if let Some(twin) = entrants.iter().find(same) {
+            message!(
+                "warning: `{}` is the same robot as `{}`; they share their results",
+                for_terminal(&name),
+                for_terminal(&twin.name)
+            );
+        }
         entrants.push(Entrant {
             name,
-            digest: Digest::of(&bytes),
-            setting: specification.setting,
+            digest,
+            variant: spec.variant,
             admission,
         });
     }
     Ok(entrants)
 }
 
-/// Has the referee look at a robot, and tells what the user should know about that.
+/// Asks the executor to admit a robot, and reports what the user should know about that.
 ///
 /// # Errors
 ///
 /// When the host fails.
 pub fn admit(
-    referee: &Referee,
+    executor: &LocalExecutor,
     bytes: &[u8],
     trust: Trust,
-) -> Result<Result<Arc<Player>, Arc<Refusal>>, Failure> {
-    let had_workers = referee.sandbox().is_some();
-    let admission = referee
+) -> Result<Result<Arc<AdmittedRobot>, Arc<Rejection>>, Failure> {
+    let admission = executor
         .admit(bytes, trust)
         .map_err(|error| setup_failure(&error))?;
-    if !had_workers {
-        tell_sandbox(referee);
-    }
-    if let Ok(player) = &admission
-        && let CacheUse::Failed(reason) = player.cache_use()
+    warn_about_sandbox(executor);
+    if let Ok(robot) = &admission
+        && let CacheUse::Failed(reason) = robot.cache_use()
     {
-        tell!("warning: {reason}; robots are compiled anew each time");
+        message!("warning: {reason}; robots are compiled again each time");
     }
     Ok(admission.map(Arc::new).map_err(Arc::new))
 }
 
-/// Says once where workers are confined by less than everything.
-pub fn tell_sandbox(referee: &Referee) {
-    static TOLD: AtomicBool = AtomicBool::new(false);
-    if let Some(sandbox) = referee.sandbox()
+/// Warns once where workers do not have every layer of the sandbox.
+pub fn warn_about_sandbox(executor: &LocalExecutor) {
+    static WARNED: AtomicBool = AtomicBool::new(false);
+    if let Some(sandbox) = executor.sandbox()
         && !sandbox.is_complete()
-        && !TOLD.swap(true, Ordering::Relaxed)
+        && !WARNED.swap(true, Ordering::Relaxed)
     {
-        let lacks = match (sandbox.landlock, sandbox.seccomp) {
-            (false, false) => "landlock and seccomp",
-            (false, true) => "landlock",
-            (true, _) => "seccomp",
-        };
-        tell!(
-            "warning: this system has no {lacks}, so strangers' robots are kept apart by \
-             processes with fewer restrictions; --require-sandbox refuses to go on"
+        message!(
+            "warning: this system has no {}, so untrusted robots run in processes with fewer \
+             restrictions; --require-sandbox refuses to run them",
+            sandbox.missing()
         );
     }
 }
 
-/// A host that cannot begin.
-pub fn setup_failure(error: &HostError) -> Failure {
+/// An executor that cannot start.
+pub fn setup_failure(error: &InfrastructureError) -> Failure {
     let hint = match error {
-        HostError::Unconfined(_) => {
+        InfrastructureError::IncompleteSandbox { .. } => {
             "use Linux 5.13 or later with landlock and seccomp, or leave --require-sandbox out"
         }
-        HostError::Engine(_) | HostError::Thread(_) => "try fewer threads with --jobs",
+        InfrastructureError::Engine(_) | InfrastructureError::Thread(_) => {
+            "try fewer threads with --jobs"
+        }
         _ => "--trust runs robots without worker processes",
     };
-    Failure::host(error).hint(hint)
+    Failure::internal(error).hint(hint)
 }
 
-fn unique_name(specification: &Specification, all: &[Specification]) -> String {
-    let name = specification.short_name();
-    let is_taken = all
+/// The short names, or the labels of those robots that share a short name with another.
+fn unique_names(specs: &[RobotSpec]) -> Result<Vec<String>, Failure> {
+    let short: Vec<String> = specs.iter().map(RobotSpec::short_name).collect();
+    let is_shared = |name: &String| short.iter().filter(|it| *it == name).count() > 1;
+    let names: Vec<String> = specs
         .iter()
-        .any(|other| other.label() != specification.label() && other.short_name() == name);
-    if is_taken {
-        specification.label()
-    } else {
-        name
+        .zip(&short)
+        .map(|(spec, name)| {
+            if spec.name.is_none() && is_shared(name) {
+                spec.label()
+            } else {
+                name.clone()
+            }
+        })
+        .collect();
+    let mut sorted: Vec<&String> = names.iter().collect();
+    sorted.sort();
+    match sorted.windows(2).find(|pair| pair[0] == pair[1]) {
+        None => Ok(names),
+        Some(pair) => {
+            let message = format!("robot `{}` is given twice", for_terminal(pair[0]));
+            let hint = "NAME=FILE gives a robot another name; --repeat plays it more than once";
+            Err(Failure::usage(message).hint(hint))
+        }
     }
 }
 
@@ -317,47 +410,93 @@ fn unique_name(specification: &Specification, all: &[Specification]) -> String {
 mod tests {
     use super::*;
 
-    fn file(text: &str) -> (PathBuf, u32) {
-        match Specification::parse(text).expect("a file").source {
-            Source::File(path) => (path, Specification::parse(text).expect("a file").setting),
-            Source::Bundled(robot) => panic!("{text} is the bundled robot {}", robot.name),
-        }
+    #[track_caller]
+    fn check(argument: &str, label: &str, variant: u32, name: Option<&str>) {
+        let specs = resolve(argument).expect("a robot");
+        let [spec] = &specs[..] else {
+            panic!("{argument} is one robot");
+        };
+        let found = (spec.label(), spec.variant, spec.name.as_deref());
+        assert_eq!(found, (label.to_owned(), variant, name), "{argument}");
     }
 
     #[test]
-    fn settings_are_split_off_files() {
-        for (text, path, setting) in [
-            ("bot.wasm", "bot.wasm", 0),
-            ("bot.wasm:2", "bot.wasm", 2),
-            ("a:b.wasm", "a:b.wasm", 0),
-            ("bot.wasm:-1", "bot.wasm:-1", 0),
-            (":3", ":3", 0),
-        ] {
-            assert_eq!(file(text), (path.into(), setting), "{text}");
-        }
+    fn names_and_variants_are_split_off() {
+        check("bot.wasm", "bot.wasm", 0, None);
+        check("bot.wasm:2", "bot.wasm:2", 2, None);
+        check("a:b.wasm", "a:b.wasm", 0, None);
+        check("bot.wasm:-1", "bot.wasm:-1", 0, None);
+        check("ann=bot.wasm:2", "bot.wasm:2", 2, Some("ann"));
+        check("flood", "flood:reset", 0, None);
+        check("flood:certain", "flood:certain", 1, None);
+        check("flood:1", "flood:certain", 1, None);
+        check("dry=flood", "dry:reset", 0, Some("dry"));
+        check("a/b=c.wasm", "a/b=c.wasm", 0, None);
     }
 
     #[test]
-    fn only_wasm_files_and_bundled_names_are_robots() {
-        for (text, is_robot) in [
+    fn only_robots_are_taken_for_robots() {
+        for (text, expected) in [
             ("a/b.WASM:1", true),
+            ("ann=b.wasm", true),
             ("flood", true),
             ("flood:0", true),
             ("maze.txt", false),
             ("gen:tree:16:1", false),
+            ("gen:tree,loops=3:16:1", false),
             ("test_maze_01", false),
+            (".", false),
         ] {
-            assert_eq!(Specification::is_meant_by(text), is_robot, "{text}");
+            let folder = tempfile::tempdir().expect("a temporary folder");
+            let text = if text == "." {
+                folder.path().to_str().expect("UTF-8")
+            } else {
+                text
+            };
+            assert_eq!(is_robot(text), expected, "{text}");
         }
     }
 
     #[test]
-    fn unknown_settings_of_bundled_robots_are_refused() {
-        let failure = Specification::parse("flood:nosuch").expect_err("no such setting");
-        let message = failure.to_string();
+    fn folders_of_robots_are_sorted_and_shallow() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        fs::create_dir(folder.path().join("deeper.wasm")).expect("a folder");
+        for name in ["b.wasm", "a.WASM", "README.md"] {
+            fs::write(folder.path().join(name), "").expect("a file");
+        }
+        let argument = folder.path().to_str().expect("UTF-8");
+        assert!(is_robot(argument));
+        let names: Vec<String> = resolve(argument)
+            .expect("robots")
+            .iter()
+            .map(RobotSpec::short_name)
+            .collect();
+        assert_eq!(names, ["a", "b"]);
+        let failure = resolve(&format!("ann={argument}")).expect_err("two robots, one name");
         assert!(
-            message.starts_with("error: robot `flood` has no setting `nosuch`\n\nhint: "),
-            "{message}"
+            failure.to_string().contains("more than one robot"),
+            "{failure}"
         );
+    }
+
+    #[test]
+    fn unknown_variants_of_bundled_robots_are_errors() {
+        let failure = resolve("flood:nosuch").expect_err("no such variant");
+        assert_eq!(
+            failure.to_string(),
+            "error: robot `flood` has no variant `nosuch`\n\nhint: its variants are reset, certain"
+        );
+    }
+
+    #[test]
+    fn two_robots_never_have_one_name() {
+        let specs = |arguments: &[&str]| -> Vec<RobotSpec> {
+            let specs = arguments.iter().map(|it| resolve(it).expect("a robot"));
+            specs.flatten().collect()
+        };
+        let names = unique_names(&specs(&["x/a.wasm", "y/a.wasm", "b=y/a.wasm"]));
+        assert_eq!(names.expect("three names"), ["x/a.wasm", "y/a.wasm", "b"]);
+        let failure = unique_names(&specs(&["flood", "flood"])).expect_err("one name");
+        assert_eq!(failure.exit(), super::super::exit::Exit::Usage);
     }
 }

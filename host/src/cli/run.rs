@@ -1,47 +1,58 @@
 //! `wasmouse run`: robots in mazes, with a verdict and a score for each match.
 
-use std::path::PathBuf;
-use std::sync::atomic::AtomicBool;
+use std::ffi::OsStr;
+use std::io;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use wasmouse_core::maze::bundled as bundled_mazes;
+use wasmouse_engine::LocalExecutor;
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::mazes::{self, Legality};
-use super::output::{self, Existing};
-use super::robots::{self, Specification};
+use super::mazes::{self, BadFiles, Legality};
+use super::output::{self, Draft, Existing, Stdout, message};
+use super::play::play_all;
+use super::robots::{self, RobotSpec};
 use super::setup::{IsolationArgs, SetupArgs};
-use super::{explain, interrupt, journal, page, terminal, twice, watch};
-use crate::contest::{Contest, ContestMaze, Entrant, MatchResult, Pairing, Played, standings};
-use crate::maze::bundled as bundled_mazes;
-use crate::report::result::ContestReport;
+use super::verdict::{exit, print_faults};
+use super::{backtrace, log, page, reproduce, terminal, watch};
+use crate::contest::{
+    BestMatches, ContestInfo, FaultSummary, Plan, Player, RESULTS_VERSION, RecordList, Results,
+    Seeds, Sink, StandingsBuilder, Summary, SummaryBuilder, Tee,
+};
+use crate::report::escape::for_terminal;
+use crate::report::jsonl::JsonLines;
+use crate::report::results_json::ResultsWriter;
 use crate::report::table;
-use crate::report::visible;
-use crate::robot::bundled::bundled as bundled_robots;
-use crate::robot::{Referee, Verdict};
 
 const EXAMPLES: &str = "\
 Examples:
   wasmouse run flood                          a bundled robot in the bundled mazes
+  wasmouse run my-robot                       build a robot project and run it
   wasmouse run my-robot.wasm maze.txt         your robot in your maze
+  wasmouse run submissions mazes -o out.json  every robot of a folder in every maze of another
   wasmouse run flood dfs gen:tree:16:1..=100  two robots in 100 generated mazes
   wasmouse run random --maze test_maze_01 --repeat 20
   wasmouse run flood test_maze_01 --watch
-  wasmouse run flood old-contest --lenient --json > results.json
 
 Exit codes:
-  0  every robot was admitted and every match ended without a fault; a robot
-     that did not finish within its steps is no fault
-  4  a robot was refused or ended a match with a fault; all others were played
-  5  the host failed, or --twice found a difference
-  130  interrupted; what was played by then has been printed";
+  0  every robot was admitted, no match ended in a fault, and at least one was
+     finished
+  1  --reproduce found a difference
+  4  a robot was rejected or faulted; all other robots still played
+  5  internal error
+  6  no robot finished any match
+  130  interrupted; what was played by then has been written";
 
-/// Run robots in mazes and print verdicts, scores and standings.
+/// More matches than this are only listed when asked for.
+const LISTED_MAX: u64 = 40;
+
+/// Run robots in mazes and print verdicts, scores and standings
 ///
-/// Among the arguments, the names of bundled robots and files that end in .wasm
-/// are robots; everything else is a maze. Without a maze, the bundled ones are
-/// used. Every robot plays every maze, each match in a fresh sandbox.
+/// Names of bundled robots, files that end in .wasm, folders of them and robot
+/// projects are robots; everything else is a maze. Without a maze, the bundled
+/// mazes are used. Every robot plays every maze, each match in a fresh sandbox.
 #[derive(clap::Args, Debug)]
 #[command(after_long_help = format!(
     "{}\n\n{}\n\n{EXAMPLES}", robots::SPECIFICATION_HELP, mazes::SPECIFICATION_HELP
@@ -50,40 +61,49 @@ pub struct Args {
     /// Robots and mazes, in any order
     #[arg(value_name = "ROBOT|MAZE")]
     arguments: Vec<String>,
-    /// A robot, whatever its file is called
+    /// Treat this argument as a robot, whatever its file extension
     #[arg(long = "robot", value_name = "ROBOT")]
     robots: Vec<String>,
-    /// A maze, whatever its file is called
+    /// Treat this argument as a maze, whatever its file extension
     #[arg(long = "maze", short, value_name = "MAZE")]
     mazes: Vec<String>,
-    /// The first seed; a robot's only source of chance
+    /// First random seed; the robot's only source of randomness
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
     /// Play each robot in each maze this many times, with seed, seed + 1, ...
     #[arg(long, value_name = "COUNT", default_value_t = 1,
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     repeat: u32,
-    /// Play everything twice, in another way the second time, and fail when any
-    /// byte is not the same
+    /// Play every match twice, the second time reordered and recompiled, and fail
+    /// if results differ
     #[arg(long)]
-    twice: bool,
-    /// Use mazes that break contest rules as they are
+    reproduce: bool,
+    /// Accept mazes that break contest rules
     #[arg(long)]
     lenient: bool,
-    /// Print JSON: every match with hashes, steps and fuel
-    #[arg(long, conflicts_with = "html")]
+    /// Fail on a bad maze file in a folder instead of skipping it
+    #[arg(long)]
+    strict: bool,
+    /// Print the results as JSON instead of tables
+    #[arg(long)]
     json: bool,
-    /// Also write a web page with the standings and pictures
+    /// Write the results to FILE: JSON, or one match per line if it ends in .jsonl
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Write a web page with the standings and pictures to FILE
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// Replace FILE when it is there
-    #[arg(long, requires = "html")]
+    /// Overwrite FILE if it exists
+    #[arg(long)]
     force: bool,
-    /// Print what the robots write to their journals, on standard error
+    /// Print the table of matches even if it is long
+    #[arg(long, conflicts_with = "json")]
+    matches: bool,
+    /// Print robot log messages to stderr
     #[arg(long)]
     log: bool,
     /// Show the match step by step on the terminal; for one robot in one maze
-    #[arg(long, conflicts_with_all = ["json", "html", "log"])]
+    #[arg(long, conflicts_with_all = ["json", "log"])]
     watch: bool,
     /// Time between the steps that --watch shows, in milliseconds
     #[arg(long, value_name = "MS", default_value_t = 120, requires = "watch",
@@ -100,139 +120,82 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<Exit, Failure> {
-    let (specifications, maze_specs) = args.sort_arguments()?;
-    if let Some(path) = &args.html {
-        output::check(path, args.existing())?;
-    }
-    let legality = Legality::from_flag(args.lenient);
-    let mazes = mazes::load(&maze_specs, legality)?;
-    let referee = args.setup.referee_for_all(&args.isolation)?;
-    let contest = Contest {
-        entrants: robots::load(&specifications, &referee)?,
-        mazes: mazes
-            .into_iter()
-            .map(|named| ContestMaze::new(named.name, named.maze, &args.setup.rules))
-            .collect(),
-        seeds: args.seeds()?,
-        rules: args.setup.rules,
-    };
-    let threads = args.setup.threads();
-    let played = play(&contest, &referee, threads)?;
-    let twice = if args.twice {
-        twice::check(&contest, &played, &specifications, threads, &args.isolation)?
+    let (robots, mazes) = args.sort_arguments()?;
+    let existing = Existing::from_flag(args.force);
+    let draft = |path: &PathBuf| Draft::create(path, existing);
+    let file = args.output.as_ref().map(draft).transpose()?;
+    let html = args.html.as_ref().map(draft).transpose()?;
+    let executor = args.setup.executor_for_all(&args.isolation)?;
+    let bad_files = if args.strict {
+        BadFiles::Fail
     } else {
-        Exit::Success
+        BadFiles::Skip
     };
-    if args.watch && !played.results.is_empty() {
-        let delay = Duration::from_millis(args.delay);
-        watch::watch(&contest, &referee, &played.results, delay, args.ascii)?;
+    let plan = Plan {
+        mazes: mazes::load(&mazes, Legality::from_flag(args.lenient), bad_files)?,
+        entrants: robots::load(&robots, &executor)?,
+        seeds: args.seeds()?,
+        rules: executor.rules().clone(),
+    };
+    let players = plan.players();
+    let jobs = args.setup.jobs();
+    let played = args.play(&plan, &players, &executor, jobs, file)?;
+
+    // Results come first, whatever happens to what is replayed for the user afterwards.
+    let results = &played.results;
+    if !args.json {
+        args.print_tables(&plan, results)?;
+    }
+    print_faults(&plan, &players, results, &played.faults);
+    if let (Some(html), Some(path)) = (html, &args.html) {
+        let best = played.best.map(BestMatches::into_best).unwrap_or_default();
+        page::write(html, path, results, &players, &best)?;
+    }
+    let exit = exit(&plan, results);
+    if exit == Exit::Interrupted {
+        return Ok(exit);
+    }
+    if !args.json {
+        backtrace::print(&plan, &players, &robots, &executor, &played.faults);
     }
     if args.log {
-        journal::print(&contest, &referee, &played.results)?;
+        log::print(&plan, &players, &executor, results);
     }
-    args.report(&contest, &referee, &played)?;
-    if !args.json {
-        explain::tell(&contest, &referee, &specifications, &played.results)?;
+    if args.watch {
+        let delay = Duration::from_millis(args.delay);
+        watch::watch(&plan, &players, &executor, results, delay, args.ascii)?;
     }
-    let exit = exit(&contest, &played);
-    Ok(match twice {
-        Exit::Success => exit,
-        interrupted => interrupted,
-    })
-}
-
-/// Plays a contest with a progress bar on a terminal; Ctrl-C ends it early.
-pub fn play(contest: &Contest, referee: &Referee, threads: usize) -> Result<Played, Failure> {
-    play_only(contest, &contest.pairings(), referee, threads)
-}
-
-/// Plays these matches of a contest as [`play`] plays all.
-pub fn play_only(
-    contest: &Contest,
-    pairings: &[Pairing],
-    referee: &Referee,
-    threads: usize,
-) -> Result<Played, Failure> {
-    let cancelled: &AtomicBool = interrupt::listen()?;
-    let total = u64::try_from(pairings.len()).unwrap_or(u64::MAX);
-    let bar = ProgressBar::new(total).with_style(
-        ProgressStyle::with_template("{bar:40} {pos}/{len} matches, {per_sec}, {eta} left")
-            .expect("a constant template"),
-    );
-    let played = contest
-        .run_only(pairings, referee, threads, cancelled, &|| bar.inc(1))
-        .map_err(Failure::host);
-    bar.finish_and_clear();
-    played
-}
-
-/// The exit code that goes with what was played; tells on standard error what
-/// was not.
-pub fn exit(contest: &Contest, played: &Played) -> Exit {
-    for failed in &played.failed {
-        let robot = visible(&contest.entrants[failed.entrant].name);
-        let maze = visible(&contest.mazes[failed.maze].name);
-        let (seed, error) = (failed.seed, &failed.error);
-        tell!("error: `{robot}` in `{maze}`, seed {seed}, was not played: {error}");
-    }
-    let missing = contest.matches() - played.results.len() - played.failed.len();
-    if missing > 0 {
-        tell!("interrupted: {missing} matches were not played");
-        return Exit::Interrupted;
-    }
-    let is_fault = |result: &MatchResult| matches!(result.outcome.verdict, Verdict::Fault(_));
-    let is_refused = |entrant: &Entrant| entrant.admission.is_err();
-    if !played.failed.is_empty() {
-        Exit::Host
-    } else if contest.entrants.iter().any(is_refused) || played.results.iter().any(is_fault) {
-        Exit::Robot
-    } else {
-        Exit::Success
-    }
-}
-
-/// Tells on standard error why robots were refused or failed.
-pub fn tell_failures(contest: &Contest, results: &[MatchResult]) {
-    for entrant in &contest.entrants {
-        if let Err(refusal) = &entrant.admission {
-            let (name, reason) = (visible(&entrant.name), visible(&refusal.to_string()));
-            tell!("refused `{name}`: {reason}\n  hint: {}", refusal.hint());
+    if args.reproduce {
+        let again = reproduce::check(&plan, results, &robots, jobs, &args.isolation)?;
+        if again != Exit::Success {
+            return Ok(again);
         }
     }
-    // The same fault in every maze is told once for each, up to a screenful.
-    const TOLD_MAX: usize = 20;
-    let faults = results
-        .iter()
-        .filter_map(|result| match &result.outcome.verdict {
-            Verdict::Fault(fault) => Some((result, fault)),
-            Verdict::Finished(_) | Verdict::BudgetUsedUp { .. } => None,
-        });
-    let count = faults.clone().count();
-    for (result, fault) in faults.take(TOLD_MAX) {
-        let robot = visible(&contest.entrants[result.entrant].name);
-        let maze = visible(&contest.mazes[result.maze].name);
-        let fault = visible(&fault.to_string());
-        tell!("fault of `{robot}` in `{maze}`: {fault}");
-    }
-    if count > TOLD_MAX {
-        tell!("and {} more faults; --json lists all", count - TOLD_MAX);
-    }
+    Ok(exit)
+}
+
+/// What came of a contest.
+struct Played {
+    /// With matches only when there are few, or when they are needed.
+    results: Results,
+    faults: FaultSummary,
+    best: Option<BestMatches>,
 }
 
 impl Args {
     /// Which arguments are robots and which are mazes.
-    fn sort_arguments(&self) -> Result<(Vec<Specification>, Vec<String>), Failure> {
+    fn sort_arguments(&self) -> Result<(Vec<RobotSpec>, Vec<String>), Failure> {
         let mut robots = Vec::new();
         let mut mazes = Vec::new();
         for argument in &self.arguments {
-            if Specification::is_meant_by(argument) {
-                robots.push(Specification::parse(argument)?);
+            if robots::is_robot(argument) {
+                robots.extend(robots::resolve(argument)?);
             } else {
                 mazes.push(argument.clone());
             }
         }
-        for text in &self.robots {
-            robots.push(Specification::parse(text)?);
+        for argument in &self.robots {
+            robots.extend(robots::resolve(argument)?);
         }
         mazes.extend(self.mazes.iter().cloned());
         if robots.is_empty() {
@@ -245,60 +208,141 @@ impl Args {
     }
 
     fn no_robot(&self) -> Failure {
-        let message = match self.arguments.first() {
-            None => "no robot is given".to_owned(),
-            Some(argument) => format!(
-                "no robot is given: `{}` is neither a bundled robot nor a file that ends in .wasm",
-                visible(argument)
-            ),
-        };
-        let names: Vec<&str> = bundled_robots().iter().map(|robot| robot.name).collect();
-        Failure::usage(message).hint(format!(
-            "bundled robots are {}; --robot takes a file of any name",
-            names.join(", ")
-        ))
+        let unknown = self.arguments.iter().find(|it| !Path::new(it).exists());
+        match unknown {
+            None => Failure::usage("no robot specified").hint(robots::unknown_hint("")),
+            Some(argument) => Failure::usage(format!("unknown robot `{}`", for_terminal(argument)))
+                .hint(robots::unknown_hint(argument)),
+        }
     }
 
-    fn seeds(&self) -> Result<Vec<u64>, Failure> {
+    fn seeds(&self) -> Result<Seeds, Failure> {
         let last = self.seed.checked_add(u64::from(self.repeat - 1));
-        let last = last.ok_or_else(|| {
-            Failure::usage(format!(
-                "seed {} repeated {} times passes the largest seed",
-                self.seed, self.repeat
+        match last {
+            Some(_) => Ok(Seeds {
+                first: self.seed,
+                count: self.repeat,
+            }),
+            None => Err(Failure::usage(format!(
+                "seed {} repeated {} times exceeds the largest seed, {}",
+                self.seed,
+                self.repeat,
+                u64::MAX
             ))
-            .hint("choose a smaller --seed")
-        })?;
-        Ok((self.seed..=last).collect())
+            .hint("choose a smaller --seed")),
+        }
     }
 
-    fn report(&self, contest: &Contest, referee: &Referee, played: &Played) -> Result<(), Failure> {
-        let results = &played.results;
-        let standings = standings(contest, results);
-        if self.json {
-            return output::print(&ContestReport::new(contest, played, &standings).to_json());
+    /// Plays the plan and writes its results as they come.
+    fn play(
+        &self,
+        plan: &Plan,
+        players: &[Player],
+        executor: &LocalExecutor,
+        jobs: usize,
+        file: Option<Draft>,
+    ) -> Result<Played, Failure> {
+        let contest = ContestInfo::new(plan);
+        let mut standings = StandingsBuilder::new(plan, players);
+        let mut summary = SummaryBuilder::new();
+        let mut faults = FaultSummary::default();
+        let mut best = self.html.as_ref().map(|_| BestMatches::default());
+        let needs_list = self.matches || self.log || self.watch || self.reproduce;
+        let mut list = RecordList::new(if needs_list { u64::MAX } else { LISTED_MAX });
+        let path = self.output.as_deref().unwrap_or(Path::new(""));
+        let file_failed = |error: io::Error| {
+            Failure::internal(format!("failed to write `{}`: {error}", path.display()))
+        };
+        let mut file = file
+            .map(|draft| FileWriter::new(draft, path, &contest))
+            .transpose()
+            .map_err(file_failed)?;
+        let stdout = self
+            .json
+            .then(|| ResultsWriter::new(Stdout::default(), &contest));
+        let mut stdout = stdout
+            .transpose()
+            .map_err(|error| output::stdout_failure(&error))?;
+
+        let mut sinks: Vec<&mut dyn Sink> =
+            vec![&mut standings, &mut summary, &mut faults, &mut list];
+        sinks.extend(best.as_mut().map(|it| it as &mut dyn Sink));
+        sinks.extend(file.as_mut().map(FileWriter::sink));
+        sinks.extend(stdout.as_mut().map(|it| it as &mut dyn Sink));
+        play_all(plan, executor, jobs, &mut Tee(sinks))?;
+
+        let summary = summary.finish(plan, standings.finish(plan, players));
+        if let Some(file) = file {
+            file.finish(&summary).map_err(file_failed)?.commit()?;
         }
-        let lines = terminal::table_lines(self.ascii);
-        if !results.is_empty() {
-            output::print(&table::matches(contest, results, lines))?;
+        if let Some(stdout) = stdout {
+            let written = stdout.finish(&summary);
+            written.map_err(|error| output::stdout_failure(&error))?;
         }
-        if contest.entrants.len() > 1 || results.len() > 1 {
-            output::print(&format!(
-                "\n{}",
-                table::standings(contest, &standings, lines)
+        let results = Results {
+            version: RESULTS_VERSION,
+            contest,
+            matches: list.into_records().unwrap_or_default(),
+            summary,
+        };
+        Ok(Played {
+            results,
+            faults,
+            best,
+        })
+    }
+
+    fn print_tables(&self, plan: &Plan, results: &Results) -> Result<(), Failure> {
+        let layout = terminal::table_layout(self.ascii);
+        let (contest, summary) = (&results.contest, &results.summary);
+        let played = results.summary.matches;
+        let is_listed = self.matches || played <= LISTED_MAX;
+        if is_listed && played > 0 {
+            output::print(&table::matches(
+                contest,
+                &summary.mazes,
+                &results.matches,
+                layout,
             ))?;
         }
-        tell_failures(contest, results);
-        if let Some(path) = &self.html {
-            page::write(path, self.existing(), contest, referee, results, &standings)?;
+        if plan.entrants.len() > 1 || played > 1 {
+            let separator = if is_listed { "\n" } else { "" };
+            let standings = table::standings(contest, &summary.standings, layout);
+            output::print(&format!("{separator}{standings}"))?;
+        }
+        if !is_listed {
+            message!("{played} matches were played; --matches lists them, -o FILE stores them");
         }
         Ok(())
     }
+}
 
-    const fn existing(&self) -> Existing {
-        if self.force {
-            Existing::Replace
+/// The file of `--output`, in the format that its name asks for.
+enum FileWriter {
+    Document(ResultsWriter<Draft>),
+    Lines(JsonLines<Draft>),
+}
+
+impl FileWriter {
+    fn new(draft: Draft, path: &Path, contest: &ContestInfo) -> io::Result<Self> {
+        if path.extension() == Some(OsStr::new("jsonl")) {
+            Ok(Self::Lines(JsonLines::new(draft)))
         } else {
-            Existing::Keep
+            ResultsWriter::new(draft, contest).map(Self::Document)
+        }
+    }
+
+    fn sink(&mut self) -> &mut dyn Sink {
+        match self {
+            Self::Document(writer) => writer,
+            Self::Lines(writer) => writer,
+        }
+    }
+
+    fn finish(self, summary: &Summary) -> io::Result<Draft> {
+        match self {
+            Self::Document(writer) => writer.finish(summary),
+            Self::Lines(writer) => writer.finish(),
         }
     }
 }

@@ -1,20 +1,23 @@
-//! Options that commands share which run robots: rules, threads, cache.
+//! Options shared by the commands that run robots: rules, threads, cache, isolation.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::thread;
 
 use etcetera::BaseStrategy as _;
+use wasmouse_core::game::Ruleset;
+use wasmouse_engine::sandbox::{Executable, PATIENCE, WorkerOptions};
+use wasmouse_engine::{Cache, Isolation, LocalExecutor};
 
 use super::failure::Failure;
-use crate::robot::{Cache, Executable, Isolation, PATIENCE, Referee, Workers};
-use crate::sim::Ruleset;
+use super::output::message;
 
 /// How robots are run.
 #[derive(clap::Args, Debug)]
 pub struct SetupArgs {
-    /// The ruleset: `udacity` (1000 steps for both runs together) or
-    /// `udacity-each-run` (1000 steps for each run)
+    /// Ruleset: `udacity` (1000 steps for both runs together) or `udacity-each-run`
+    /// (1000 steps for each run)
     #[arg(long, value_name = "NAME", default_value = "udacity", value_parser = rules)]
     pub rules: Ruleset,
     #[command(flatten)]
@@ -24,13 +27,13 @@ pub struct SetupArgs {
 /// What robots are run with, whatever the rules.
 #[derive(clap::Args, Debug)]
 pub struct EngineArgs {
-    /// Threads that play matches; by default one for each core
+    /// Number of matches to play in parallel [default: number of cores]
     #[arg(long, short, value_name = "N")]
     jobs: Option<NonZeroUsize>,
-    /// Where compiled robots are kept; by default in the user's cache folder
-    #[arg(long, value_name = "FOLDER", env = "WASMOUSE_CACHE")]
+    /// Cache directory for compiled robots [default: the user's cache directory]
+    #[arg(long, value_name = "DIR", env = "WASMOUSE_CACHE")]
     cache: Option<PathBuf>,
-    /// Compile robots anew and keep nothing, whatever `--cache` says
+    /// Disable the compilation cache (overrides --cache)
     // No conflict with `--cache`: clap would also see one in WASMOUSE_CACHE.
     #[arg(long)]
     no_cache: bool,
@@ -39,11 +42,10 @@ pub struct EngineArgs {
 /// Where robots from files run.
 #[derive(clap::Args, Debug)]
 pub struct IsolationArgs {
-    /// Run robots from files inside this process, as bundled ones do: for robots of
-    /// your own. Without it they run in confined worker processes
+    /// Run robot files in-process instead of in sandboxed workers; only for robots you trust
     #[arg(long)]
     trust: bool,
-    /// Fail where the operating system cannot confine the worker processes completely
+    /// Fail if the operating system cannot sandbox worker processes completely
     #[arg(long, conflicts_with = "trust")]
     require_sandbox: bool,
 }
@@ -51,54 +53,55 @@ pub struct IsolationArgs {
 fn rules(name: &str) -> Result<Ruleset, String> {
     Ruleset::by_name(name).ok_or_else(|| {
         let names = Ruleset::all().map(|rules| rules.name);
-        format!("no ruleset has this name; there are {}", names.join(", "))
+        format!("unknown ruleset; the rulesets are {}", names.join(", "))
     })
 }
 
 impl SetupArgs {
     /// Threads to play matches on, at least 1.
-    pub fn threads(&self) -> usize {
-        self.engine.threads()
+    pub fn jobs(&self) -> usize {
+        self.engine.jobs()
     }
 
-    /// A referee for bundled robots, which run in this process, with a cache, or
-    /// without one when that cannot be used: robots are then compiled each time, which
-    /// is slower and otherwise the same.
-    pub fn referee(&self) -> Referee {
+    /// An executor for bundled robots, which run in this process, with a cache, or without one
+    /// when that cannot be used: robots are then compiled each time, which is slower and
+    /// otherwise the same.
+    pub fn executor(&self) -> LocalExecutor {
         let engine = &self.engine;
-        referee(
-            self.rules,
-            engine.threads(),
-            engine.open_cache(),
-            Isolation::None,
-        )
+        let rules = Arc::new(self.rules.clone());
+        executor(rules, engine.jobs(), engine.open_cache(), Isolation::None)
     }
 
-    /// A referee for robots of all kinds.
+    /// An executor for all robots.
     ///
     /// # Errors
     ///
     /// When the program cannot find itself, to start workers from.
-    pub fn referee_for_all(&self, isolation: &IsolationArgs) -> Result<Referee, Failure> {
-        self.engine.referee(self.rules, isolation)
+    pub fn executor_for_all(&self, isolation: &IsolationArgs) -> Result<LocalExecutor, Failure> {
+        let rules = Arc::new(self.rules.clone());
+        self.engine.executor(rules, isolation)
     }
 }
 
 impl EngineArgs {
     /// Threads to play matches on, at least 1.
-    pub fn threads(&self) -> usize {
+    pub fn jobs(&self) -> usize {
         let cores = || thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
         self.jobs.unwrap_or_else(cores).get()
     }
 
-    /// A referee for robots of all kinds by these rules.
+    /// An executor for all robots by these rules.
     ///
     /// # Errors
     ///
     /// When the program cannot find itself, to start workers from.
-    pub fn referee(&self, rules: Ruleset, isolation: &IsolationArgs) -> Result<Referee, Failure> {
+    pub fn executor(
+        &self,
+        rules: Arc<Ruleset>,
+        isolation: &IsolationArgs,
+    ) -> Result<LocalExecutor, Failure> {
         let isolation = isolation.isolation()?;
-        Ok(referee(rules, self.threads(), self.open_cache(), isolation))
+        Ok(executor(rules, self.jobs(), self.open_cache(), isolation))
     }
 
     fn open_cache(&self) -> Option<Cache> {
@@ -116,30 +119,35 @@ impl EngineArgs {
         match Cache::open(folder) {
             Ok(cache) => Some(cache),
             Err(error) => {
-                tell!("warning: {error}; robots are compiled anew each time");
+                message!("warning: {error}; robots are compiled again each time");
                 None
             }
         }
     }
 }
 
-fn referee(rules: Ruleset, threads: usize, cache: Option<Cache>, isolation: Isolation) -> Referee {
-    let matches = u32::try_from(threads).unwrap_or(u32::MAX);
-    Referee::new(rules, matches, cache, isolation)
+fn executor(
+    rules: Arc<Ruleset>,
+    jobs: usize,
+    cache: Option<Cache>,
+    isolation: Isolation,
+) -> LocalExecutor {
+    let matches = u32::try_from(jobs).unwrap_or(u32::MAX);
+    LocalExecutor::new(rules, matches, cache, isolation)
 }
 
-/// A referee on that many threads that has nothing in common with any other: it
-/// compiles all robots anew.
+/// An executor on that many threads that has nothing in common with any other: it compiles all
+/// robots again.
 ///
 /// # Errors
 ///
 /// When the program cannot find itself, to start workers from.
-pub fn independent_referee(
-    rules: Ruleset,
-    threads: usize,
+pub fn independent_executor(
+    rules: Arc<Ruleset>,
+    jobs: usize,
     isolation: &IsolationArgs,
-) -> Result<Referee, Failure> {
-    Ok(referee(rules, threads, None, isolation.isolation()?))
+) -> Result<LocalExecutor, Failure> {
+    Ok(executor(rules, jobs, None, isolation.isolation()?))
 }
 
 impl IsolationArgs {
@@ -148,9 +156,9 @@ impl IsolationArgs {
             return Ok(Isolation::None);
         }
         let executable = Executable::current().map_err(|error| {
-            Failure::host(format!("failed to find the program itself: {error}"))
+            Failure::internal(format!("failed to find the wasmouse executable: {error}"))
         })?;
-        Ok(Isolation::Workers(Workers {
+        Ok(Isolation::Workers(WorkerOptions {
             executable,
             patience: PATIENCE,
             require_sandbox: self.require_sandbox,

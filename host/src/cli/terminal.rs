@@ -1,16 +1,23 @@
 //! How output looks on this terminal: colours, Unicode or ASCII.
 
 use std::env;
-use std::io::stdout;
+use std::io::{IsTerminal as _, stdout};
 
 use anstream::{AutoStream, ColorChoice};
 
 use crate::report::picture::{Charset, TextStyle};
-use crate::report::table::Lines;
+use crate::report::table::{Layout, Lines};
 
-/// Tables for standard output.
-pub const fn table_lines(ascii: bool) -> Lines {
-    if ascii { Lines::Ascii } else { Lines::Unicode }
+/// Tables for standard output: as wide as the terminal, if it is one.
+pub fn table_layout(ascii: bool) -> Layout {
+    let is_terminal = stdout().is_terminal();
+    let size = is_terminal
+        .then(|| crossterm::terminal::size().ok())
+        .flatten();
+    Layout {
+        lines: if ascii { Lines::Ascii } else { Lines::Unicode },
+        width: size.map(|(columns, _)| columns),
+    }
 }
 
 /// Pictures for standard output: in colour on a terminal that has not been told

@@ -10,15 +10,16 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use super::failure::Failure;
+use super::output::message;
 
 /// The target of robots: it has no WASI, so nothing of it can be imported.
 pub const WASM_TARGET: &str = "wasm32-unknown-unknown";
 
-/// How a person gets the target, in both ways.
+/// Both ways to get the target.
 const INSTALL_HINT: &str = "\
 with rustup:             rustup target add wasm32-unknown-unknown
 on Debian or Ubuntu:     apt-get install --no-install-recommends rustc-web rust-web-src lld-22
-                         (a packaged compiler is found by itself then)";
+                         (wasmouse then finds it automatically)";
 
 /// A compiler outside rustup that can build for [`WASM_TARGET`].
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,7 +30,7 @@ pub struct Packaged {
     build_std: bool,
 }
 
-/// What there is on this machine.
+/// What this machine has.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Probe {
     /// Whether the compiler that cargo uses in this folder has the target.
@@ -48,7 +49,7 @@ enum Plan {
     AskRustup,
     /// Build with a packaged compiler.
     UsePackaged(Packaged),
-    /// Tell the person.
+    /// Explain how to install one.
     GiveUp,
 }
 
@@ -106,14 +107,14 @@ impl Toolchain {
         match plan {
             Plan::AsIs => Ok(Self::default()),
             Plan::UsePackaged(packaged) => {
-                tell!(
+                message!(
                     "using the packaged compiler {} with {}",
                     packaged.rustc.display(),
                     packaged.linker.display()
                 );
                 Ok(Self::from_packaged(&packaged))
             }
-            Plan::AskRustup | Plan::GiveUp => Err(Failure::host(format_args!(
+            Plan::AskRustup | Plan::GiveUp => Err(Failure::input(format_args!(
                 "no Rust compiler for {WASM_TARGET} on this machine"
             ))
             .hint(INSTALL_HINT)),
@@ -211,7 +212,7 @@ fn newest_wasm_ld(bin: &Path) -> Option<PathBuf> {
 
 /// Asks rustup for the target; says on stderr what happens.
 fn add_target(folder: &Path) -> bool {
-    tell!("adding the target {WASM_TARGET} with rustup");
+    message!("adding the target {WASM_TARGET} with rustup");
     // rustup's stdout is talk, and ours is data.
     let status: io::Result<_> = quiet("rustup", folder)
         .args(["target", "add", WASM_TARGET])
@@ -219,7 +220,7 @@ fn add_target(folder: &Path) -> bool {
         .status();
     let added = status.is_ok_and(|status| status.success());
     if !added {
-        tell!("rustup could not add the target");
+        message!("rustup could not add the target");
     }
     added
 }

@@ -1,67 +1,71 @@
 //! `wasmouse verify`: recorded results against the same matches played again.
 
+use std::collections::HashSet;
 use std::fs::File;
 use std::io::{self, Read};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 
-use serde_json::json;
+use wasmouse_core::game::Ruleset;
+use wasmouse_core::record::MatchKey;
+use wasmouse_engine::{AdmissionLimits, LocalExecutor, engine_id};
 
-use super::at_hand::{FoundRobot, Mazes, Namesake, Robots};
 use super::exit::Exit;
 use super::failure::Failure;
+use super::output::{self, message};
+use super::play::{is_interrupted, play};
+use super::resolve::{Found, Mazes, RobotSource, Robots};
 use super::robots::admit;
 use super::setup::{EngineArgs, IsolationArgs};
-use super::{interrupt, output, run};
-use crate::contest::{Contest, ContestMaze, Entrant};
-use crate::maze::Maze;
-use crate::report::result::{ContestReport, Difference, Unplayed, Verification};
-use crate::report::verification::{FileReport, NotAtHand, to_json};
-use crate::report::visible;
-use crate::robot::{Digest, Player, Referee, Refusal};
-use crate::sim::Ruleset;
+use crate::contest::{
+    ContestInfo, Entrant, FieldDifference, MazeSource, Plan, RESULTS_VERSION, RecordList, Results,
+    StandingsBuilder, SummaryBuilder, Tee, compare,
+};
+use crate::report::escape::for_terminal;
+use crate::report::results_json::{read_results, write_results};
+use crate::report::verification::{
+    Differences, FileReport, MatchName, NeededKind, NotFound, Status, to_json,
+};
 
 const EXAMPLES: &str = "\
-Every match is played again and every byte compared: names and digests, rules,
-verdicts, scores, steps, fuel, traces and standings. Robots and mazes are found by
-their content, whatever their files are called: bundled ones always, `gen:` mazes by
-their names, others in the files and folders that --robot and --maze name. Fuel and
-faults are only comparable within one engine: results of another version of wasmouse
-are verified by that version.
+Every match is played again and every value compared: names and digests, rules,
+verdicts, scores, steps, fuel, transcripts and standings. Robots and mazes are found
+by content, whatever their file names: bundled ones always, `gen:` mazes by name,
+others in the files and folders given with --robot and --maze. Fuel and faults can
+only be compared within one engine: results of another version of wasmouse are
+verified by that version.
 
 Examples:
   wasmouse verify results.json --robot submissions --maze mazes
   wasmouse run flood dfs --json | wasmouse verify -
   wasmouse verify day-1.json day-2.json --robot a.wasm --robot b.wasm --json
 
-Exit codes, of several results the largest:
-  0  everything is as recorded
-  1  something is not; the differences are printed
-  3  a result cannot be read, or a robot or maze is not at hand
-  5  the host failed to play a match again
+Exit codes (the largest, for several results):
+  0  everything is as recorded, to the byte
+  1  something has changed; the differences are printed
+  3  a result cannot be read, or a required robot or maze was not found
+  5  internal error
+  7  the result was recorded by another version of the engine
+  8  everything is as recorded, but the file was reformatted
   130  interrupted";
 
-/// Bytes that a result may have: more than a million matches.
-const RESULT_BYTES_MAX: u64 = 1 << 30;
+/// Largest result file, in bytes: more than a million matches.
+const RESULT_BYTES_MAX: u64 = 4 << 30;
 
-/// What stands for standard input.
+/// The argument that means standard input.
 const STDIN: &str = "-";
 
-/// Things that a message lists.
-const LISTED_MAX: usize = 20;
-
-/// Play recorded results again and say what differs.
+/// Replay recorded results and report differences
 #[derive(clap::Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
-    /// Files that `wasmouse run --json` wrote; - is standard input
+    /// Files written by `wasmouse run --json` or `-o`; - is standard input
     #[arg(value_name = "RESULT", required = true)]
     results: Vec<PathBuf>,
-    /// A robot's file, or a folder: all its .wasm files
+    /// A robot file, or a folder with .wasm files
     #[arg(long = "robot", value_name = "FILE")]
     robots: Vec<PathBuf>,
-    /// A maze's file, or a folder, as in `wasmouse run`
+    /// A maze file, or a folder, as in `wasmouse run`
     #[arg(long = "maze", short, value_name = "MAZE")]
     mazes: Vec<String>,
     /// Print JSON: all differences of all results
@@ -80,19 +84,18 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     if results.chain(mazes).filter(|is_stdin| *is_stdin).count() > 1 {
         return Err(Failure::usage("standard input is given twice"));
     }
-    let bytes_max = Ruleset::default().limits.component_bytes_max;
-    let at_hand = AtHand {
-        robots: Robots::load(&args.robots, bytes_max)?,
+    let available = Available {
+        robots: Robots::load(&args.robots, AdmissionLimits::DEFAULT.component_bytes_max)?,
         mazes: Mazes::load(&args.mazes)?,
     };
     let mut reports = Vec::new();
     let mut exit = Exit::Success;
     for path in &args.results {
-        let file = path.display().to_string();
-        let (report, own) = match args.verify(path, &file, &at_hand) {
+        let (report, own) = match args.verify(path, &available) {
             Ok(verified) => verified,
             Err(failure) => {
-                tell!("{failure}");
+                message!("{failure}");
+                let file = path.display().to_string();
                 let report = FileReport::unreadable(&file, failure.message());
                 (report, failure.exit())
             }
@@ -101,7 +104,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
             output::print(&report.to_string())?;
         }
         reports.push(report);
-        exit = if own as u8 > exit as u8 { own } else { exit };
+        exit = exit.max(own);
         if own == Exit::Interrupted {
             break;
         }
@@ -113,158 +116,245 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
 }
 
 /// What results may be verified with.
-struct AtHand {
+struct Available {
     robots: Robots,
     mazes: Mazes,
 }
 
-/// The robots and mazes of one result, as far as they are at hand.
+/// The robots and mazes of one result.
 #[derive(Default)]
-struct Needed<'a> {
-    robots: Vec<FoundRobot<'a>>,
-    mazes: Vec<Maze>,
-    missing: Vec<NotAtHand>,
+struct Required {
+    robots: Vec<RobotSource>,
+    mazes: Vec<MazeSource>,
+    not_found: Vec<NotFound>,
+    /// Those that have the recorded names and other contents.
+    changed: Vec<FieldDifference>,
 }
 
-impl AtHand {
-    /// Finds what a result needs. What has a name of the result and another content
-    /// is a difference; what is not there at all is missing.
-    fn find(&self, report: &ContestReport<'_>, verification: &mut Verification<'_>) -> Needed<'_> {
-        let mut needed = Needed::default();
-        for (index, robot) in report.robots().enumerate() {
-            let path = format!("robots[{index}]");
-            match self.robots.find(robot) {
-                Some(found) => needed.robots.push(found),
-                None => match self.robots.namesake(robot) {
-                    Some(other) => verification.add(changed(&path, robot.sha256, &other)),
-                    None => needed
-                        .missing
-                        .push(not_at_hand(path, robot.name, robot.sha256)),
-                },
+impl Available {
+    fn find(&self, recorded: &Results) -> Required {
+        let mut required = Required::default();
+        for (index, entry) in recorded.contest.robots.iter().enumerate() {
+            match self.robots.find(entry) {
+                Found::Same(robot) => required.robots.push(robot),
+                other => required.lacks(
+                    (NeededKind::Robot, &entry.name, entry.digest),
+                    &format!("contest.robots[{index}].digest"),
+                    &other,
+                ),
             }
         }
-        for (index, maze) in report.mazes().enumerate() {
-            let path = format!("mazes[{index}]");
-            match self.mazes.find(maze) {
-                Some(found) => needed.mazes.push(found),
-                None => match self.mazes.namesake(maze) {
-                    Some(other) => verification.add(changed(&path, maze.sha256, &other)),
-                    None => needed
-                        .missing
-                        .push(not_at_hand(path, maze.name, maze.sha256)),
-                },
+        for (index, entry) in recorded.summary.mazes.iter().enumerate() {
+            match self.mazes.find(entry) {
+                Found::Same(maze) => required.mazes.push(maze),
+                other => required.lacks(
+                    (NeededKind::Maze, &entry.name, entry.digest),
+                    &format!("summary.mazes[{index}].digest"),
+                    &other,
+                ),
             }
         }
-        needed
+        required
     }
 }
 
-fn changed(path: &str, sha256: &str, other: &Namesake) -> Difference {
-    Difference {
-        path: format!("{path}.sha256"),
-        recorded: Some(json!(sha256)),
-        source: format!("of `{}`", other.label),
-        found: Some(json!(other.digest.hex())),
-        of: None,
-    }
-}
-
-fn not_at_hand(path: String, name: &str, sha256: &str) -> NotAtHand {
-    NotAtHand {
-        path,
-        name: name.to_owned(),
-        sha256: sha256.to_owned(),
+impl Required {
+    fn lacks<T>(
+        &mut self,
+        (kind, name, digest): (NeededKind, &str, wasmouse_core::Digest),
+        field: &str,
+        found: &Found<T>,
+    ) {
+        match found {
+            Found::Changed(other) => self.changed.push(FieldDifference {
+                field: field.to_owned(),
+                recorded: Some(digest.to_string().into()),
+                found: Some(other.to_string().into()),
+            }),
+            Found::Same(_) | Found::NotFound => self.not_found.push(NotFound {
+                kind,
+                name: name.to_owned(),
+                digest,
+            }),
+        }
     }
 }
 
 impl Args {
-    fn verify(
-        &self,
-        path: &PathBuf,
-        file: &str,
-        at_hand: &AtHand,
-    ) -> Result<(FileReport, Exit), Failure> {
-        let shown = visible(file);
+    fn verify(&self, path: &Path, available: &Available) -> Result<(FileReport, Exit), Failure> {
+        let file = path.display().to_string();
+        let shown = for_terminal(&file);
         let bytes = read(path, &shown)?;
-        let report = ContestReport::read(&bytes).map_err(|error| {
-            Failure::input(format!("failed to read result `{shown}`: {error}"))
-                .hint("a result is what `wasmouse run --json` printed, to the byte")
+        let recorded = read_results(&bytes).map_err(|error| {
+            Failure::input(format!("failed to read result `{shown}`: {error}")).hint(error.hint())
         })?;
-        let rules = Ruleset::by_name(report.ruleset()).ok_or_else(|| {
-            let (name, known) = (visible(report.ruleset()), Ruleset::all().map(|it| it.name));
-            Failure::input(format!(
-                "failed to verify result `{shown}`: ruleset.name: this version has no \
-                 ruleset `{name}`, but {}",
-                known.join(", ")
-            ))
-        })?;
-        let mut verification = Verification::new(&report);
-        let needed = at_hand.find(&report, &mut verification);
-        let lacks =
-            needed.mazes.len() + needed.robots.len() < report.mazes().len() + report.robots().len();
-        let (unplayed, problem) = if lacks {
-            tell_missing(&shown, &needed.missing);
-            let problem = "not all robots and mazes are at hand".to_owned();
-            (Unplayed::default(), Some(problem))
-        } else {
-            let referee = self.engine.referee(rules, &self.isolation)?;
-            let contest = contest(&report, &needed, &at_hand.robots, &referee)?;
-            self.play_again(&contest, &referee, &mut verification, &bytes)?
+        let mut report = FileReport {
+            file,
+            matches: recorded.matches.len() as u64,
+            matches_planned: recorded.contest.matches_planned,
+            status: Status::Incomplete,
+            differences: Differences::default(),
+            not_found: Vec::new(),
+            reason: None,
         };
-        let differences = verification.differences();
-        let is_missing = !needed.missing.is_empty();
-        let report = FileReport::new(file, &report, differences, needed.missing, problem);
-        for failed in unplayed.failed.iter().take(LISTED_MAX) {
-            tell!("error: `{shown}` was not played again: {}", visible(failed));
+        if recorded.contest.engine != engine_id() {
+            report.status = Status::DifferentEngine {
+                recorded_engine: recorded.contest.engine,
+                found_engine: engine_id(),
+            };
+            return Ok((report, Exit::OtherEngine));
         }
-        let is_interrupted = unplayed.missing > 0 && interrupted()?;
-        if is_interrupted {
-            let missing = unplayed.missing;
-            tell!("interrupted: {missing} matches of `{shown}` were not played again");
+        let required = available.find(&recorded);
+        report.not_found = required.not_found;
+        if !required.changed.is_empty() {
+            report.differences.add(None, required.changed);
+            report.status = Status::Changed;
+            return Ok((report, Exit::CheckFailed));
         }
-        let exit = if is_interrupted {
-            Exit::Interrupted
-        } else if !unplayed.failed.is_empty() {
-            Exit::Host
-        } else if is_missing {
-            Exit::Input
-        } else if report.differs() {
-            Exit::No
-        } else {
-            Exit::Success
+        if !report.not_found.is_empty() {
+            message!("hint: give their files or folders with --robot and --maze");
+            return Ok((report, Exit::Input));
+        }
+        let rules = Arc::new(recorded.contest.rules.clone());
+        check_rules(&rules, &shown)?;
+        let executor = self.engine.executor(Arc::clone(&rules), &self.isolation)?;
+        let plan = Plan {
+            entrants: entrants(&recorded, &required.robots, &available.robots, &executor)?,
+            mazes: required.mazes,
+            seeds: recorded.contest.seeds,
+            rules,
         };
-        Ok((report, exit))
+        let found = self.play(&plan, &recorded, &executor)?;
+        if is_interrupted()? {
+            let (played, all) = (found.matches.len(), recorded.matches.len());
+            report.reason = Some(format!("interrupted after {played} of {all} matches"));
+            return Ok((report, Exit::Interrupted));
+        }
+        if let Some(failure) = found.summary.failures.first() {
+            report.reason = Some(failure.reason.clone());
+            return Ok((report, Exit::Internal));
+        }
+        Ok(judge(report, &recorded, &found, &bytes))
     }
 
-    /// Plays the matches of a result and compares; also says why that is not all.
-    fn play_again(
+    /// Plays the recorded matches again.
+    fn play(
         &self,
-        contest: &Contest,
-        referee: &Referee,
-        verification: &mut Verification<'_>,
-        bytes: &[u8],
-    ) -> Result<(Unplayed, Option<String>), Failure> {
-        let schedule = verification.schedule(contest);
-        let threads = self.engine.threads();
-        let played = run::play_only(contest, &schedule.pairings(), referee, threads)?;
-        let unplayed = verification.compare(contest, &schedule, played, bytes);
-        let problem = match &unplayed.failed[..] {
-            [failed, ..] => Some(format!("the host failed to play {failed}")),
-            [] if unplayed.missing > 0 => Some(format!(
-                "{} matches were not played again",
-                unplayed.missing
-            )),
-            [] => None,
-        };
-        Ok((unplayed, problem))
+        plan: &Plan,
+        recorded: &Results,
+        executor: &LocalExecutor,
+    ) -> Result<Results, Failure> {
+        let keys: HashSet<MatchKey> = recorded.matches.iter().map(|it| it.key).collect();
+        let players = plan.players();
+        let mut standings = StandingsBuilder::new(plan, &players);
+        let mut summary = SummaryBuilder::new();
+        let mut list = RecordList::new(u64::MAX);
+        let mut sink = Tee(vec![&mut standings, &mut summary, &mut list]);
+        let wanted = |key: &MatchKey| keys.contains(key);
+        let total = keys.len() as u64;
+        play(
+            plan,
+            executor,
+            self.engine.jobs(),
+            (&wanted, total),
+            &mut sink,
+        )?;
+        let mut contest = ContestInfo::new(plan);
+        // A contest that was interrupted lists only the mazes that it had come to.
+        if !recorded.summary.complete {
+            contest.matches_planned = recorded.contest.matches_planned;
+        }
+        let mut standings = standings.finish(plan, &players);
+        standings.partial |= !recorded.summary.complete;
+        let mut summary = summary.finish(plan, standings);
+        summary.complete = summary.matches == contest.matches_planned;
+        Ok(Results {
+            version: RESULTS_VERSION,
+            contest,
+            matches: list.into_records().unwrap_or_default(),
+            summary,
+        })
     }
 }
 
-fn interrupted() -> Result<bool, Failure> {
-    Ok(interrupt::listen()?.load(Ordering::Relaxed))
+/// The report on a result whose matches were all played again.
+fn judge(
+    mut report: FileReport,
+    recorded: &Results,
+    found: &Results,
+    bytes: &[u8],
+) -> (FileReport, Exit) {
+    let names = recorded.names();
+    for (key, field) in compare(recorded, found) {
+        let of = key.map(|key| MatchName::new(&names, &key));
+        report.differences.add(of.as_ref(), [field]);
+    }
+    if report.differences.count() > 0 {
+        report.status = Status::Changed;
+        return (report, Exit::CheckFailed);
+    }
+    let written = write_results(recorded, Vec::new()).expect("writing to memory cannot fail");
+    if written == bytes {
+        report.status = Status::Verified;
+        return (report, Exit::Success);
+    }
+    let lines = |bytes: &[u8]| {
+        bytes
+            .split(|byte| *byte == b'\n')
+            .map(<[u8]>::to_vec)
+            .collect()
+    };
+    let (written, recorded): (Vec<Vec<u8>>, Vec<Vec<u8>>) = (lines(&written), lines(bytes));
+    let same = written.iter().zip(&recorded).take_while(|(a, b)| a == b);
+    report.status = Status::Reformatted {
+        line: same.count() + 1,
+    };
+    (report, Exit::Reformatted)
 }
 
-fn read(path: &PathBuf, shown: &str) -> Result<Vec<u8>, Failure> {
+/// Recorded rules decide what the host allows a robot, so only those that come with wasmouse are
+/// accepted.
+fn check_rules(rules: &Ruleset, shown: &str) -> Result<(), Failure> {
+    if Ruleset::all().contains(rules) {
+        return Ok(());
+    }
+    let names = Ruleset::all().map(|it| it.name);
+    Err(Failure::input(format!(
+        "failed to verify result `{shown}`: contest.rules: this version has no such ruleset; its \
+         rulesets are {}",
+        names.join(", ")
+    )))
+}
+
+/// The robots of a result, as they are admitted now.
+fn entrants(
+    recorded: &Results,
+    sources: &[RobotSource],
+    robots: &Robots,
+    executor: &LocalExecutor,
+) -> Result<Vec<Entrant>, Failure> {
+    let mut entrants: Vec<Entrant> = Vec::new();
+    for (entry, source) in recorded.contest.robots.iter().zip(sources) {
+        // A robot takes part once for each variant, and is admitted once.
+        let known = entrants.iter().find(|it| it.digest == entry.digest);
+        let admission = match known {
+            Some(known) => known.admission.clone(),
+            None => {
+                let (bytes, trust) = robots.read(source)?;
+                admit(executor, &bytes, trust)?
+            }
+        };
+        entrants.push(Entrant {
+            name: entry.name.clone(),
+            digest: entry.digest,
+            variant: entry.variant,
+            admission,
+        });
+    }
+    Ok(entrants)
+}
+
+fn read(path: &Path, shown: &str) -> Result<Vec<u8>, Failure> {
     let failed = |reason: &dyn std::fmt::Display| {
         Failure::input(format!("failed to read result `{shown}`: {reason}"))
     };
@@ -283,63 +373,4 @@ fn read(path: &PathBuf, shown: &str) -> Result<Vec<u8>, Failure> {
         return Err(failed(&format!("more than {RESULT_BYTES_MAX} bytes")));
     }
     Ok(bytes)
-}
-
-/// The contest of a result, with what the referee says of each robot now.
-fn contest(
-    report: &ContestReport<'_>,
-    needed: &Needed<'_>,
-    robots: &Robots,
-    referee: &Referee,
-) -> Result<Contest, Failure> {
-    type Admission = Result<Arc<Player>, Arc<Refusal>>;
-    // A robot takes part once for each setting, and is admitted once.
-    let mut admitted: Vec<(&str, Digest, Admission)> = Vec::new();
-    let mut entrants = Vec::new();
-    for (recorded, found) in report.robots().zip(&needed.robots) {
-        let known = admitted.iter().find(|it| it.0 == recorded.sha256);
-        let (digest, admission) = match known {
-            Some((_, digest, admission)) => (*digest, admission.clone()),
-            None => {
-                let (bytes, trust) = robots.read(found, recorded.sha256)?;
-                let digest = Digest::of(&bytes);
-                let admission = admit(referee, &bytes, trust)?;
-                admitted.push((recorded.sha256, digest, admission.clone()));
-                (digest, admission)
-            }
-        };
-        entrants.push(Entrant {
-            name: recorded.name.to_owned(),
-            digest,
-            setting: recorded.setting,
-            admission,
-        });
-    }
-    let rules = *referee.rules();
-    let mazes = report
-        .mazes()
-        .zip(&needed.mazes)
-        .map(|(recorded, maze)| ContestMaze::new(recorded.name.to_owned(), maze.clone(), &rules));
-    Ok(Contest {
-        entrants,
-        mazes: mazes.collect(),
-        seeds: report.seeds().to_vec(),
-        rules,
-    })
-}
-
-fn tell_missing(file: &str, missing: &[NotAtHand]) {
-    if missing.is_empty() {
-        return;
-    }
-    tell!("error: robots or mazes of result `{file}` are not at hand:");
-    for it in missing.iter().take(LISTED_MAX) {
-        let (name, sha256) = (visible(&it.name), visible(&it.sha256));
-        tell!("  {} `{name}`, sha256 {sha256}", it.path);
-    }
-    if missing.len() > LISTED_MAX {
-        let rest = missing.len() - LISTED_MAX;
-        tell!("  and {rest} more");
-    }
-    tell!("\nhint: name their files or folders with --robot and --maze");
 }

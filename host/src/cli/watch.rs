@@ -1,66 +1,69 @@
 //! `--watch`: a match step by step on the terminal, as large as it fits.
 //!
-//! The match is over before it is shown: matches take less than a millisecond,
-//! so what is watched is its trace, at a speed for eyes. That also lets the
-//! viewer stop and step back.
+//! A match takes less than a millisecond, so it is played first and its trace is shown at a
+//! readable speed. That also lets the viewer pause and step back.
 
 use std::io::{self, IsTerminal as _, Write as _};
 use std::time::Duration;
 
 use crossterm::event::{self, Event, KeyCode, KeyEventKind, KeyModifiers};
 use crossterm::{cursor, execute, queue, terminal};
+use wasmouse_core::game::{Action, Event as GameEvent, Trace, Verdict};
+use wasmouse_core::journal::{Level, Note};
+use wasmouse_core::record::trace;
+use wasmouse_engine::Executor;
 
-use super::exit::Exit;
+use super::again::{Replayed, play_again};
 use super::failure::Failure;
 use super::terminal::picture_style;
-use crate::contest::{Contest, MatchResult};
-use crate::report::{replay, visible};
-use crate::robot::{Level, Note, Recorder, Referee, Verdict};
-use crate::sim::{Action, Event as SimEvent};
+use crate::contest::{Plan, Player, Results};
+use crate::report::escape::for_terminal;
+use crate::report::moment;
 
-/// Shows the only match of a contest until it is over or the viewer leaves.
+/// Shows the only match of a contest until it is over or the viewer quits.
 ///
 /// # Errors
 ///
-/// When there is not exactly one match, or standard output is no terminal.
+/// When there is not exactly one match, or standard output is not a terminal.
 pub fn watch(
-    contest: &Contest,
-    referee: &Referee,
-    results: &[MatchResult],
+    plan: &Plan,
+    players: &[Player],
+    executor: &dyn Executor,
+    results: &Results,
     delay: Duration,
     ascii: bool,
-) -> Result<Exit, Failure> {
-    let [result] = results else {
-        return Err(Failure::usage(format!(
-            "--watch shows one match, and this contest has {}",
-            results.len()
-        ))
-        .hint("name one robot and one maze"));
+) -> Result<(), Failure> {
+    let [record] = &results.matches[..] else {
+        let count = results.matches.len();
+        let message = format!("--watch shows one match, and this contest has {count}");
+        return Err(Failure::usage(message).hint("name one robot and one maze"));
     };
     if !io::stdout().is_terminal() {
         return Err(
             Failure::usage("--watch needs a terminal on standard output").hint("leave it out"),
         );
     }
-    let mut recorder = Recorder::default();
-    contest
-        .replay(referee, result, &mut recorder)
-        .map_err(Failure::host)?;
+    let replayed = play_again(plan, players, executor, record).map_err(Failure::internal)?;
+    let Some(replayed) = replayed else {
+        return Ok(());
+    };
+    let maze = &replayed.maze.maze;
+    let transcript = &replayed.detailed.recording.transcript;
+    let (_, trace) = trace(maze, &plan.rules.game, transcript).map_err(Failure::internal)?;
     let show = Show {
-        contest,
-        result,
-        recorder: &recorder,
+        robot: for_terminal(&plan.entrants[replayed.player.entrants[0]].name),
+        replayed: &replayed,
+        trace: &trace,
         ascii,
     };
     let screen = Screen::open().map_err(lost)?;
     let played = show.play(delay).map_err(lost);
     drop(screen);
-    played?;
-    Ok(Exit::Success)
+    played
 }
 
 fn lost(error: io::Error) -> Failure {
-    Failure::host(format!("failed to use the terminal: {error}"))
+    Failure::internal(format!("failed to use the terminal: {error}"))
 }
 
 /// The alternate screen, left when it goes out of scope.
@@ -84,9 +87,9 @@ impl Drop for Screen {
 }
 
 struct Show<'a> {
-    contest: &'a Contest,
-    result: &'a MatchResult,
-    recorder: &'a Recorder,
+    robot: String,
+    replayed: &'a Replayed<'a>,
+    trace: &'a Trace,
     ascii: bool,
 }
 
@@ -100,7 +103,7 @@ enum Command {
 
 impl Show<'_> {
     fn play(&self, delay: Duration) -> io::Result<()> {
-        let last = self.recorder.trace.steps().len();
+        let last = self.trace.steps().len();
         let (mut step, mut paused) = (0, false);
         loop {
             self.draw(step, paused)?;
@@ -122,9 +125,8 @@ impl Show<'_> {
     }
 
     fn draw(&self, step: usize, paused: bool) -> io::Result<()> {
-        let maze = &self.contest.mazes[self.result.maze];
-        let Recorder { trace, journal, .. } = self.recorder;
-        let picture = replay::moment(&maze.maze, trace, journal, step);
+        let journal = &self.replayed.detailed.recording.journal;
+        let picture = moment(&self.replayed.maze.maze, self.trace, journal, step);
         let text = picture.to_text(picture_style(self.ascii));
         let mut stdout = io::stdout().lock();
         queue!(stdout, cursor::MoveTo(0, 0))?;
@@ -146,13 +148,13 @@ impl Show<'_> {
     }
 
     fn header(&self, step: usize, paused: bool) -> [String; 3] {
-        let robot = visible(&self.contest.entrants[self.result.entrant].name);
-        let maze = visible(&self.contest.mazes[self.result.maze].name);
-        let steps = self.recorder.trace.steps();
+        let robot = &self.robot;
+        let maze = for_terminal(&self.replayed.maze.name);
+        let steps = self.trace.steps();
         let state = if step == steps.len() {
-            match &self.result.outcome.verdict {
-                Verdict::Finished(score) => format!("finished, score {score}"),
-                Verdict::Fault(fault) => visible(&fault.to_string()),
+            match &self.replayed.detailed.record.verdict {
+                Verdict::Finished { score } => format!("finished, score {score}"),
+                Verdict::Fault { fault } => for_terminal(&fault.to_string()),
                 other => other.title().into_owned(),
             }
         } else if paused {
@@ -167,42 +169,43 @@ impl Show<'_> {
             .map_or_else(String::new, |step| {
                 let sensors = step.sensors;
                 let (left, front, right) = (sensors.left, sensors.front, sensors.right);
-                let answer = answer(step.action);
-                let run = step.run.number();
+                let (run, action) = (step.run.name(), action(step.action));
                 let event = event_name(step.event);
-                format!("run {run}: saw {left} {front} {right}, answered {answer}{event}")
+                format!("{run}: sensors {left} {front} {right}, {action}{event}")
             });
         let keys = "space: pause   left, right: one step   home, end   q: quit".to_owned();
-        let said = self.last_line(step).unwrap_or(keys);
-        [title, what, said]
+        let log = self.last_log(step).unwrap_or(keys);
+        [title, what, log]
     }
 
-    /// What the robot wrote last, when it was in this step.
-    fn last_line(&self, step: usize) -> Option<String> {
+    /// The last line that the robot logged in this step.
+    fn last_log(&self, step: usize) -> Option<String> {
         let number = u32::try_from(step).ok()?;
-        let said = self.recorder.journal.entries().filter_map(|entry| {
-            match (entry.step == number, entry.note) {
-                (true, Note::Log { level, text }) => Some((level, text)),
-                _ => None,
-            }
-        });
-        let (level, text) = said.last()?;
+        let journal = &self.replayed.detailed.recording.journal;
+        let logged =
+            journal
+                .entries()
+                .filter_map(|entry| match (entry.step == number, entry.note) {
+                    (true, Note::Log { level, text }) => Some((level, text)),
+                    _ => None,
+                });
+        let (level, text) = logged.last()?;
         let mark = match level {
             Level::Debug | Level::Info => "",
             Level::Warning => "warning: ",
             Level::Error => "error: ",
         };
-        Some(format!("\"{mark}{}\"", visible(text)))
+        Some(format!("\"{mark}{}\"", for_terminal(text)))
     }
 }
 
-fn answer(action: Action) -> String {
+fn action(action: Action) -> String {
     match action {
         Action::Move { turn, advance } => {
             let turn = match turn {
-                crate::maze::Turn::Left => "left",
-                crate::maze::Turn::Straight => "straight",
-                crate::maze::Turn::Right => "right",
+                wasmouse_core::maze::Turn::Left => "left",
+                wasmouse_core::maze::Turn::Straight => "straight",
+                wasmouse_core::maze::Turn::Right => "right",
             };
             format!("{turn} {advance}")
         }
@@ -210,12 +213,12 @@ fn answer(action: Action) -> String {
     }
 }
 
-const fn event_name(event: SimEvent) -> &'static str {
+const fn event_name(event: GameEvent) -> &'static str {
     match event {
-        SimEvent::Moved { bumped: true, .. } => ", bumped",
-        SimEvent::Moved { .. } | SimEvent::ResetDone => "",
-        SimEvent::ResetBeforeGoal => ", refused: the goal was not reached yet",
-        SimEvent::ResetInSpeedRun => ", refused: this is run 2",
+        GameEvent::Moved { bumped: true, .. } => ", bumped",
+        GameEvent::Moved { .. } | GameEvent::Reset => "",
+        GameEvent::ResetBeforeGoal => " ignored: the goal was not reached yet",
+        GameEvent::ResetInSpeedRun => " ignored: this is the speed run",
     }
 }
 

@@ -1,10 +1,11 @@
-//! `wasmouse worker`: what the program starts itself as, to run strangers' robots.
+//! `wasmouse worker`: what the program starts itself as, to run untrusted robots.
+
+use wasmouse_engine::sandbox::child;
 
 use super::exit::Exit;
 use super::failure::Failure;
-use crate::robot::worker;
 
-/// Serve a supervisor on standard input and output.
+/// Serve a supervisor on standard input and output
 #[derive(clap::Args, Debug)]
 pub struct Args {
     /// What the worker is for
@@ -16,21 +17,21 @@ pub struct Args {
 enum Role {
     /// Compile one file
     Compile,
-    /// Play matches
-    Play,
-    /// Play one match and say where the robot fails
-    Explain,
+    /// Run matches
+    Run,
+    /// Run one match and report where the robot fails
+    Backtrace,
 }
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<Exit, Failure> {
     let served = match args.role {
-        Role::Compile => worker::compile_main(),
-        Role::Play => worker::play_main(),
-        Role::Explain => worker::explain_main(),
+        Role::Compile => child::compile_main(),
+        Role::Run => child::run_main(),
+        Role::Backtrace => child::backtrace_main(),
     };
     match served {
         Ok(()) => Ok(Exit::Success),
-        Err(error) => Err(Failure::host(format!("the worker failed: {error}"))),
+        Err(error) => Err(Failure::internal(format!("the worker failed: {error}"))),
     }
 }

@@ -5,6 +5,7 @@
 //! the parts of the [`Results`] document are sinks. Prints nothing and opens no files.
 
 mod best;
+mod difference;
 mod faults;
 mod maze_source;
 mod mean;
@@ -14,8 +15,10 @@ mod run;
 mod sink;
 mod standings;
 mod tally;
+mod verify;
 
 pub use best::{BestMatch, BestMatches};
+pub use difference::{FieldDifference, differences};
 pub use faults::{FaultGroup, FaultSummary};
 pub use maze_source::{ContestMaze, MazeSource};
 pub use mean::Mean;
@@ -28,3 +31,4 @@ pub use run::{Options, RunError, run};
 pub use sink::{ContestMatch, MatchFailure, RecordList, Sink, Tee};
 pub use standings::{Standing, Standings, StandingsBuilder};
 pub use tally::{Regret, Tally};
+pub use verify::{Compared, compare};

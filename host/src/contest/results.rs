@@ -84,7 +84,9 @@ pub struct RejectionEntry {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Summary {
-    /// Whether every match was played.
+    /// Matches played: the length of `matches`.
+    pub matches: u64,
+    /// Whether every planned match was played.
     pub complete: bool,
     /// The mazes that have matches, in the order of the plan.
     pub mazes: Vec<MazeEntry>,
@@ -223,14 +225,10 @@ impl SummaryBuilder {
         }
     }
 
-    /// Matches played by now.
-    pub const fn matches(&self) -> u64 {
-        self.matches
-    }
-
     /// The summary of everything that has arrived.
     pub fn finish(self, plan: &Plan, standings: Standings) -> Summary {
         Summary {
+            matches: self.matches,
             complete: self.matches == plan.matches(),
             mazes: self.mazes,
             failures: self.failures,

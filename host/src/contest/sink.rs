@@ -85,14 +85,14 @@ impl Sink for Tee<'_> {
 /// Keeps the records, up to a number, and counts the rest.
 #[derive(Debug, Default)]
 pub struct RecordList {
-    max: usize,
+    max: u64,
     records: Vec<MatchRecord>,
-    count: usize,
+    count: u64,
 }
 
 impl RecordList {
     /// A list of at most `max` records.
-    pub const fn new(max: usize) -> Self {
+    pub const fn new(max: u64) -> Self {
         Self {
             max,
             records: Vec::new(),

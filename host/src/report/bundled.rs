@@ -2,40 +2,42 @@
 //!
 //! ```json
 //! {
-//!   "schema": 1,
+//!   "version": 2,
 //!   "robots": [{
-//!     "name": "wall-follower", "description": "...", "bytes": 20123, "sha256": "...",
-//!     "settings": [{"value": 0, "name": "left", "description": "..."}]
+//!     "name": "wall-follower", "description": "...", "bytes": 20123, "digest": "...",
+//!     "variants": [{"value": 0, "name": "left", "description": "..."}]
 //!   }]
 //! }
 //! ```
+//!
+//! `bytes` is the size of the component, `digest` its SHA-256.
 
 use serde::Serialize;
+use wasmouse_engine::bundled::BundledRobot;
 
 use super::json;
-use crate::robot::bundled::BundledRobot;
 
-/// The version of this JSON; raised when a reader of the old one would go wrong.
-const SCHEMA: u32 = 1;
+/// The version of this document; raised when a reader of the old one would go wrong.
+const VERSION: u32 = 2;
 
 /// The whole document.
 #[derive(Serialize)]
 pub struct BundledReport {
-    schema: u32,
-    robots: Vec<WireRobot>,
+    version: u32,
+    robots: Vec<RobotJson>,
 }
 
 #[derive(Serialize)]
-struct WireRobot {
+struct RobotJson {
     name: &'static str,
     description: &'static str,
     bytes: usize,
-    sha256: &'static str,
-    settings: Vec<WireSetting>,
+    digest: &'static str,
+    variants: Vec<VariantJson>,
 }
 
 #[derive(Serialize)]
-struct WireSetting {
+struct VariantJson {
     value: u32,
     name: &'static str,
     description: &'static str,
@@ -44,23 +46,23 @@ struct WireSetting {
 impl BundledReport {
     /// The document for these robots.
     pub fn new(robots: &[BundledRobot]) -> Self {
-        let robots = robots.iter().map(|robot| WireRobot {
+        let robots = robots.iter().map(|robot| RobotJson {
             name: robot.name,
             description: robot.description,
             bytes: robot.component.len(),
-            sha256: robot.sha256,
-            settings: robot
-                .settings
+            digest: robot.sha256,
+            variants: robot
+                .variants
                 .iter()
-                .map(|setting| WireSetting {
-                    value: setting.value,
-                    name: setting.name,
-                    description: setting.description,
+                .map(|variant| VariantJson {
+                    value: variant.value,
+                    name: variant.name,
+                    description: variant.description,
                 })
                 .collect(),
         });
         Self {
-            schema: SCHEMA,
+            version: VERSION,
             robots: robots.collect(),
         }
     }

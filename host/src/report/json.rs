@@ -1,17 +1,29 @@
-//! [`document`]: a JSON document as text.
+//! [`document`]: a small JSON document as text.
 
 use serde::Serialize;
 
-use super::visible::visible_json;
+use super::escape;
 
-/// The value as JSON, indented, with a newline at the end. Text in it comes from
-/// strangers; what could play with a terminal is escaped.
+/// The value as indented JSON with a newline at the end, escaped for terminals.
 pub(super) fn document(value: &impl Serialize) -> String {
-    let json = serde_json::to_string_pretty(value)
-        .expect("reports hold strings, numbers, lists and maps with string keys");
-    let mut text = visible_json(&json);
+    let mut text = pretty(value);
     text.push('\n');
     text
+}
+
+/// The value as indented JSON without a newline at the end, escaped for terminals.
+pub(super) fn pretty(value: &impl Serialize) -> String {
+    escaped(serde_json::to_string_pretty(value))
+}
+
+/// The value as JSON on one line, escaped for terminals.
+pub(super) fn line(value: &impl Serialize) -> String {
+    escaped(serde_json::to_string(value))
+}
+
+fn escaped(json: serde_json::Result<String>) -> String {
+    let json = json.expect("reports hold strings, numbers, lists and maps with string keys");
+    escape::json_for_terminal(&json)
 }
 
 #[cfg(test)]
@@ -19,7 +31,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn text_of_strangers_means_the_same_and_does_nothing() {
+    fn escaped_text_is_read_back_unchanged() {
         let text = "a\u{1b}[31m\u{9b}\u{7f}\u{202e}\u{e0041}\"\\\n\u{e9}\u{1f9ff}";
         let json = document(&[text]);
         let harmful =
@@ -31,9 +43,10 @@ mod tests {
         );
         assert!(
             json.contains('\u{1f9ff}'),
-            "letters and pictures stay: {json}"
+            "visible characters stay: {json}"
         );
         let read: Vec<String> = serde_json::from_str(&json).expect("it is JSON");
         assert_eq!(read, [text]);
+        assert_eq!(line(&[text]).lines().count(), 1);
     }
 }

@@ -2,9 +2,10 @@
 //!
 //! ```json
 //! {
-//!   "schema": 1,
+//!   "version": 2,
 //!   "mazes": [
-//!     {"source": "a.txt", "format": "udacity", "dimension": 12, "legal": true, "violations": []},
+//!     {"source": "a.txt", "format": "udacity", "digest": "...", "dimension": 12,
+//!      "legal": true, "violations": []},
 //!     {"source": "b.txt", "error": "failed to parse maze `b.txt`: the text is empty"}
 //!   ],
 //!   "summary": {
@@ -15,24 +16,24 @@
 //! }
 //! ```
 //!
-//! `mazes` is left out when only a summary was asked for. `format` is null for a
-//! generated maze.
+//! `mazes` is left out when only a summary is wanted. `format` is null for a generated maze.
 
 use std::collections::BTreeMap;
 
 use serde::Serialize;
+use wasmouse_core::Digest;
+use wasmouse_core::maze::format::Format;
+use wasmouse_core::maze::{Cell, Maze, Survey, Violation};
 
 use super::json;
-use crate::maze::format::Format;
-use crate::maze::{Cell, Maze, Survey, Violation};
 
-/// The version of this JSON; raised when a reader of the old one would go wrong.
-const SCHEMA: u32 = 1;
+/// The version of this document; raised when a reader of the old one would go wrong.
+const VERSION: u32 = 2;
 
 /// The whole document.
 #[derive(Serialize)]
 pub struct MazeCheck {
-    schema: u32,
+    version: u32,
     #[serde(skip_serializing_if = "Option::is_none")]
     mazes: Option<Vec<CheckedMaze>>,
     summary: Summary,
@@ -42,7 +43,7 @@ impl MazeCheck {
     /// The document for these mazes, or for a summary alone.
     pub fn new(mazes: Option<Vec<CheckedMaze>>, survey: &Survey) -> Self {
         Self {
-            schema: SCHEMA,
+            version: VERSION,
             mazes,
             summary: Summary::new(survey),
         }
@@ -54,7 +55,7 @@ impl MazeCheck {
     }
 }
 
-/// What was found out about one maze.
+/// The findings about one maze.
 #[derive(Serialize)]
 pub struct CheckedMaze {
     source: String,
@@ -73,6 +74,7 @@ impl CheckedMaze {
     ) -> Self {
         let finding = Finding::Read {
             format: format.map(Format::name),
+            digest: maze.digest(),
             dimension: maze.dimension(),
             legal: violations.is_empty(),
             violations: violations.iter().map(BrokenRule::new).collect(),
@@ -80,9 +82,9 @@ impl CheckedMaze {
         Self { source, finding }
     }
 
-    /// A source that could not be read or is no maze.
-    pub fn refused(source: String, error: String) -> Self {
-        let finding = Finding::Refused { error };
+    /// A source that could not be read, or does not hold a maze.
+    pub fn unreadable(source: String, error: String) -> Self {
+        let finding = Finding::Unreadable { error };
         Self { source, finding }
     }
 }
@@ -92,11 +94,12 @@ impl CheckedMaze {
 enum Finding {
     Read {
         format: Option<&'static str>,
+        digest: Digest,
         dimension: u8,
         legal: bool,
         violations: Vec<BrokenRule>,
     },
-    Refused {
+    Unreadable {
         error: String,
     },
 }
@@ -105,7 +108,7 @@ enum Finding {
 struct BrokenRule {
     rule: &'static str,
     message: String,
-    cells: Vec<CellAt>,
+    cells: Vec<Cell>,
 }
 
 impl BrokenRule {
@@ -113,22 +116,7 @@ impl BrokenRule {
         Self {
             rule: violation.rule(),
             message: violation.to_string(),
-            cells: violation.cells().into_iter().map(CellAt::new).collect(),
-        }
-    }
-}
-
-#[derive(Serialize)]
-struct CellAt {
-    x: u8,
-    y: u8,
-}
-
-impl CellAt {
-    fn new(cell: Cell) -> Self {
-        Self {
-            x: cell.x,
-            y: cell.y,
+            cells: violation.cells(),
         }
     }
 }

@@ -2,38 +2,41 @@
 //!
 //! ```json
 //! {
-//!   "schema": 1,
+//!   "version": 2,
 //!   "mazes": [
 //!     {
-//!       "maze": "test_maze_01",
-//!       "dimension": 12,
+//!       "maze": "test_maze_01", "digest": "...", "dimension": 12,
 //!       "solution": {
 //!         "fewest_steps": {"steps": 17, "cells": 30, "stops": [[0, 0], [0, 3]]},
 //!         "fewest_cells": {"steps": 17, "cells": 30, "stops": [[0, 0], [0, 3]]},
-//!         "floor": {"speed_steps": 17, "exploration_steps": 18, "score": "17.600"}
+//!         "oracle": {
+//!           "thousandths": 17600, "speed_steps": 17, "exploration_steps": 18,
+//!           "exploration_divisor": 30
+//!         }
 //!       }
 //!     },
-//!     {"maze": "walled-in", "dimension": 12, "solution": null}
+//!     {"maze": "walled-in", "digest": "...", "dimension": 12, "solution": null}
 //!   ]
 //! }
 //! ```
 //!
-//! Stops are the cells `[x, y]` where steps end, the start first. The score is
-//! a string with exactly three decimals, so that no reader rounds it.
+//! Stops are the cells `[x, y]` where steps end, the start first. `oracle` is the score of a
+//! robot that knows the maze.
 
 use serde::Serialize;
+use wasmouse_core::Digest;
+use wasmouse_core::game::Score;
+use wasmouse_core::maze::{Maze, Path};
 
 use super::json;
-use crate::maze::{Floor, Path};
-use crate::sim::Score;
 
-/// The version of this JSON; raised when a reader of the old one would go wrong.
-const SCHEMA: u32 = 1;
+/// The version of this document; raised when a reader of the old one would go wrong.
+const VERSION: u32 = 2;
 
 /// The whole document.
 #[derive(Serialize)]
 pub struct MazeSolve {
-    schema: u32,
+    version: u32,
     mazes: Vec<SolvedMaze>,
 }
 
@@ -41,7 +44,7 @@ impl MazeSolve {
     /// The document for these mazes.
     pub const fn new(mazes: Vec<SolvedMaze>) -> Self {
         Self {
-            schema: SCHEMA,
+            version: VERSION,
             mazes,
         }
     }
@@ -52,37 +55,42 @@ impl MazeSolve {
     }
 }
 
-/// One maze and its solution, `null` when it has none.
+/// One maze and its solution.
 #[derive(Serialize)]
 pub struct SolvedMaze {
-    /// What the user calls the maze.
-    pub maze: String,
-    /// Cells along each side.
-    pub dimension: u8,
-    /// The optimal ways to the goal.
-    pub solution: Option<SolutionJson>,
+    maze: String,
+    digest: Digest,
+    dimension: u8,
+    solution: Option<Solution>,
 }
 
-/// The optimal ways to the goal of one maze.
+impl SolvedMaze {
+    /// The maze of that name with its solution; `None` when the goal cannot be reached.
+    pub fn new(name: &str, maze: &Maze, solution: Option<Solution>) -> Self {
+        Self {
+            maze: name.to_owned(),
+            digest: maze.digest(),
+            dimension: maze.dimension(),
+            solution,
+        }
+    }
+}
+
+/// The optimal paths to the goal of one maze.
 #[derive(Serialize)]
-pub struct SolutionJson {
+pub struct Solution {
     fewest_steps: PathJson,
     fewest_cells: PathJson,
-    floor: FloorJson,
+    oracle: Score,
 }
 
-impl SolutionJson {
-    /// The solution with these paths, optimal in steps and in cells, and the
-    /// floor with its score.
-    pub fn new(fewest_steps: &Path, fewest_cells: &Path, floor: Floor, score: Score) -> Self {
+impl Solution {
+    /// The solution with these paths, optimal in steps and in cells, and the oracle score.
+    pub fn new(fewest_steps: &Path, fewest_cells: &Path, oracle: Score) -> Self {
         Self {
             fewest_steps: PathJson::new(fewest_steps),
             fewest_cells: PathJson::new(fewest_cells),
-            floor: FloorJson {
-                speed_steps: floor.speed_steps,
-                exploration_steps: floor.exploration_steps,
-                score: score.to_string(),
-            },
+            oracle,
         }
     }
 }
@@ -102,11 +110,4 @@ impl PathJson {
             stops: path.stops().iter().map(|stop| [stop.x, stop.y]).collect(),
         }
     }
-}
-
-#[derive(Serialize)]
-struct FloorJson {
-    speed_steps: u32,
-    exploration_steps: u32,
-    score: String,
 }

@@ -1,23 +1,28 @@
-//! Reports: what commands print for other programs, one file per output format.
+//! Reports: values of a contest as text, one file per output format.
 //!
-//! The last stage of the pipeline `maze -> sim -> robot -> contest -> report`.
-//! Turns values into text and prints nothing itself. Wire structs live here, so
-//! that the domain types can change without changing what programs read.
+//! The last stage before the command line: turns values into text, prints nothing and opens no
+//! file. Everything about a contest is made from its [`Results`](crate::contest::Results) or
+//! from parts of them. Small JSON documents have structs of their own here, so that the domain
+//! types can change without changing what other programs read.
 
 pub mod bundled;
+pub mod escape;
+pub mod faults;
 pub mod inspection;
+mod json;
+pub mod jsonl;
 pub mod maze_check;
 pub mod maze_solve;
+mod moment;
 pub mod page;
+mod paths;
 pub mod picture;
-pub mod reference;
-pub mod replay;
-pub mod result;
+pub mod results_json;
+#[cfg(test)]
+mod sample;
+mod standings;
 pub mod table;
 pub mod verification;
 
-mod json;
-mod markdown;
-mod visible;
-
-pub use visible::visible;
+pub use moment::moment;
+pub use paths::paths;

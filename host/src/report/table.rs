@@ -1,11 +1,14 @@
-//! Contests as tables for a terminal: the standings, and the matches.
+//! The standings and the matches as tables for a terminal.
 
 use comfy_table::presets::ASCII_MARKDOWN;
-use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
+use comfy_table::{
+    CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Table, TableStyle,
+};
+use wasmouse_core::record::MatchRecord;
 
-use super::visible;
-use crate::contest::{Contest, MatchResult, Standing};
-use crate::robot::Verdict;
+use super::escape;
+use super::standings::{self as standings_text, NONE};
+use crate::contest::{ContestInfo, MazeEntry, Names, Standings};
 
 /// How tables are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,11 +19,110 @@ pub enum Lines {
     Ascii,
 }
 
+/// How a table is laid out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Layout {
+    /// How it is drawn.
+    pub lines: Lines,
+    /// The width to fit, in columns of the terminal: names and verdicts are wrapped where they
+    /// have to be. `None` for as wide as the content.
+    pub width: Option<u16>,
+}
+
 /// A line under the header and nothing else, so that long tables stay short.
 const RULED: TableStyle =
     TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─'));
 
-fn table(lines: Lines, header: &[&str], left: usize) -> Table {
+/// A column, with text on the left or numbers on the right.
+#[derive(Clone, Copy)]
+enum Column {
+    Text(&'static str),
+    Number(&'static str),
+}
+
+use Column::{Number, Text};
+
+/// The standings, best first, under a line that says what they are about. Ends with a newline.
+pub fn standings(contest: &ContestInfo, standings: &Standings, layout: Layout) -> String {
+    let mut table = table(
+        &[
+            Number("Rank"),
+            Text("Robot"),
+            Number("Matches"),
+            Number("Finished"),
+            Number("Faults"),
+            Number("Mean score"),
+            Number("Mean regret"),
+        ],
+        layout.lines,
+    );
+    for line in &standings.lines {
+        table.add_row([
+            standings_text::rank(line),
+            standings_text::robot(contest, line),
+            line.matches.to_string(),
+            line.finished.to_string(),
+            line.faults.to_string(),
+            standings_text::mean(line.mean_score_thousandths),
+            standings_text::mean(line.mean_regret_thousandths),
+        ]);
+    }
+    let scope = standings_text::scope(contest, standings);
+    format!("Standings ({scope})\n\n{}\n", text(table, layout.width))
+}
+
+/// One line for every match, in the order of the document. Ends with a newline.
+///
+/// The seed is shown when the contest has more than one.
+pub fn matches(
+    contest: &ContestInfo,
+    mazes: &[MazeEntry],
+    matches: &[MatchRecord],
+    layout: Layout,
+) -> String {
+    let names = Names::new(&contest.robots, mazes);
+    let has_seeds = contest.seeds.count > 1;
+    let mut columns = vec![
+        Text("Robot"),
+        Text("Maze"),
+        Text("Verdict"),
+        Number("Score"),
+        Number("Oracle"),
+        Number("Exploration"),
+        Number("Speed"),
+        Number("Bumps"),
+        Number("Fuel"),
+    ];
+    if has_seeds {
+        columns.insert(2, Number("Seed"));
+    }
+    let mut table = table(&columns, layout.lines);
+    for record in matches {
+        let score = record.verdict.score();
+        let oracle = names.maze(&record.key).and_then(|maze| maze.oracle);
+        let number = |score: Option<wasmouse_core::game::Score>| {
+            score.map_or_else(|| NONE.to_owned(), |score| score.to_string())
+        };
+        let mut row = vec![
+            escape::for_terminal(names.robot(&record.key)),
+            escape::for_terminal(names.maze_name(&record.key)),
+            record.verdict.title().into_owned(),
+            number(score),
+            number(oracle),
+            record.steps.exploration.to_string(),
+            record.steps.speed.to_string(),
+            record.counts.bumps.to_string(),
+            (record.fuel.start + record.fuel.steps).to_string(),
+        ];
+        if has_seeds {
+            row.insert(2, record.key.seed.to_string());
+        }
+        table.add_row(row);
+    }
+    text(table, layout.width) + "\n"
+}
+
+fn table(columns: &[Column], lines: Lines) -> Table {
     let mut table = Table::new();
     table
         .load_style(match lines {
@@ -28,81 +130,145 @@ fn table(lines: Lines, header: &[&str], left: usize) -> Table {
             Lines::Ascii => ASCII_MARKDOWN,
         })
         .set_content_arrangement(ContentArrangement::Disabled)
-        .set_header(header.to_vec());
-    for (index, column) in table.column_iter_mut().enumerate() {
-        column.set_cell_alignment(if index < left {
-            CellAlignment::Left
-        } else {
-            CellAlignment::Right
-        });
+        .set_header(columns.iter().map(|&(Text(name) | Number(name))| name));
+    for (column, kind) in table.column_iter_mut().zip(columns) {
+        if lines == Lines::Unicode {
+            column.set_padding((0, 1));
+        }
+        match kind {
+            Text(_) => column.set_cell_alignment(CellAlignment::Left),
+            Number(_) => {
+                column.set_cell_alignment(CellAlignment::Right);
+                // A number that is broken over two lines is hard to read.
+                column.set_constraint(ColumnConstraint::ContentWidth);
+            }
+        }
     }
     table
 }
 
-/// The standings, best first. Ends with a newline.
-pub fn standings(contest: &Contest, standings: &[Standing], lines: Lines) -> String {
-    let header = [
-        "rank",
-        "robot",
-        "finished",
-        "mean score",
-        "mean regret",
-        "faults",
-    ];
-    let mut table = table(lines, &header, 2);
-    for line in standings {
-        let rank = line
-            .rank
-            .map_or_else(|| "-".into(), |rank| rank.to_string());
-        let mean = |mean: Option<crate::contest::Mean>| {
-            mean.map_or_else(|| "-".to_owned(), |mean| mean.to_string())
-        };
-        let finished = match line.rank {
-            Some(_) => format!("{} of {}", line.finished, line.matches),
-            None => "refused".into(),
-        };
-        table.add_row([
-            rank,
-            visible(&contest.entrants[line.entrant].name),
-            finished,
-            mean(line.score),
-            mean(line.regret),
-            line.faults.to_string(),
-        ]);
+/// The table as text, made to fit the width when it is too wide.
+fn text(mut table: Table, width: Option<u16>) -> String {
+    let wide = table.trim_fmt();
+    match width {
+        Some(width) if wide.lines().any(|line| line.chars().count() > width.into()) => {
+            for column in table.column_iter_mut() {
+                column.set_padding((0, 0));
+            }
+            table.set_content_arrangement(ContentArrangement::Dynamic);
+            table.set_width(width).trim_fmt()
+        }
+        _ => wide,
     }
-    format!("{table}\n")
 }
 
-/// One line for every match, in the contest's order. Ends with a newline.
-pub fn matches(contest: &Contest, results: &[MatchResult], lines: Lines) -> String {
-    let with_seed = contest.seeds.len() > 1;
-    let mut header = vec![
-        "robot", "maze", "verdict", "score", "run 1", "run 2", "bumps", "fuel",
-    ];
-    if with_seed {
-        header.insert(2, "seed");
-    }
-    let mut table = table(lines, &header, if with_seed { 4 } else { 3 });
-    for result in results {
-        let outcome = &result.outcome;
-        let score = match &outcome.verdict {
-            Verdict::Finished(score) => score.to_string(),
-            Verdict::BudgetUsedUp { .. } | Verdict::Fault(_) => "-".into(),
-        };
-        let mut row = vec![
-            visible(&contest.entrants[result.entrant].name),
-            visible(&contest.mazes[result.maze].name),
-            outcome.verdict.title().into_owned(),
-            score,
-            outcome.steps[0].to_string(),
-            outcome.steps[1].to_string(),
-            outcome.counts.bumps.to_string(),
-            (outcome.fuel.start + outcome.fuel.steps).to_string(),
-        ];
-        if with_seed {
-            row.insert(2, result.seed.to_string());
+#[cfg(test)]
+mod tests {
+    use super::super::sample::results;
+    use super::*;
+    use crate::contest::Results;
+
+    const ASCII: Layout = Layout {
+        lines: Lines::Ascii,
+        width: None,
+    };
+
+    /// The sample with a short name instead of the hostile one.
+    fn sample() -> Results {
+        let mut results = results();
+        results.contest.robots[1].name = "b".to_owned();
+        results.summary.standings.lines[1].robot = "b".to_owned();
+        results.summary.mazes[1].name = "gen:tree:16:1".to_owned();
+        for record in &mut results.matches {
+            record.key.seed = 0;
+            record.fuel.steps = 912_345;
         }
-        table.add_row(row);
+        results
     }
-    format!("{table}\n")
+
+    #[track_caller]
+    fn check(text: &str, expected: &str) {
+        assert_eq!(text, expected.trim_start_matches('\n'), "\n{text}");
+    }
+
+    #[test]
+    fn partial_standings_say_what_they_are_about() {
+        let mut results = sample();
+        let table =
+            |results: &Results| standings(&results.contest, &results.summary.standings, ASCII);
+        check(
+            &table(&results),
+            "
+Standings (partial: ranked over 1 of 200 mazes that every robot has played)
+
+| Rank | Robot               | Matches | Finished | Faults | Mean score | Mean regret |
+|------|---------------------|---------|----------|--------|------------|-------------|
+|    1 | a                   |       1 |        1 |      0 |     19.999 |      -0.001 |
+|    2 | b                   |       1 |        0 |      0 |          - |           - |
+|    - | rejected (rejected) |       0 |        0 |      0 |          - |           - |
+",
+        );
+        results.summary.standings.partial = false;
+        assert!(table(&results).starts_with("Standings (ranked over 1 maze)\n"));
+    }
+
+    #[test]
+    fn every_match_has_a_line() {
+        let mut results = sample();
+        let table = |results: &Results, layout| {
+            let Results {
+                contest,
+                matches: records,
+                summary,
+                ..
+            } = results;
+            matches(contest, &summary.mazes, records, layout)
+        };
+        results.contest.seeds.count = 1;
+        check(&table(&results, ASCII), "
+| Robot | Maze          | Verdict                      |  Score | Oracle | Exploration | Speed | Bumps |   Fuel |
+|-------|---------------|------------------------------|--------|--------|-------------|-------|-------|--------|
+| a     | test_maze_01  | finished                     | 20.667 | 17.600 |         110 |    17 |     0 | 912346 |
+| b     | test_maze_01  | fault: panic                 |      - | 17.600 |         110 |    17 |     0 | 912346 |
+| a     | gen:tree:16:1 | budget used up, goal reached |      - |      - |         110 |    17 |     0 | 912346 |
+| b     | gen:tree:16:1 | budget used up               |      - |      - |         110 |    17 |     0 | 912346 |
+");
+        results.contest.seeds.count = 2;
+        results.matches[3].key.seed = 7;
+        let unicode = Layout {
+            lines: Lines::Unicode,
+            width: Some(80),
+        };
+        check(
+            &table(&results, unicode),
+            "
+Robot Maze         Seed Verdict      Score Oracle Exploration Speed Bumps   Fuel
+────────────────────────────────────────────────────────────────────────────────
+a     test_maze_01    0 finished    20.667 17.600         110    17     0 912346
+b     test_maze_01    0 fault:           - 17.600         110    17     0 912346
+                        panic
+a     gen:tree:16:    0 budget used      -      -         110    17     0 912346
+      1                 up, goal
+                        reached
+b     gen:tree:16:    7 budget used      -      -         110    17     0 912346
+      1                 up
+",
+        );
+    }
+
+    #[test]
+    fn untrusted_names_are_escaped() {
+        let results = results();
+        let text = standings(&results.contest, &results.summary.standings, ASCII)
+            + &matches(
+                &results.contest,
+                &results.summary.mazes,
+                &results.matches,
+                ASCII,
+            );
+        assert!(
+            !text.contains(|c: char| c.is_control() && c != '\n'),
+            "{text:?}"
+        );
+    }
 }

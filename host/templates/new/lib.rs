@@ -1,15 +1,15 @@
-//! A robot for wasmouse: explores on the path that looks shortest, resets in the
-//! goal, and races along what it has seen.
+//! A robot for wasmouse. It explores along the path that looks shortest, resets in the
+//! goal, and then drives the shortest path through the cells that it has seen.
 
 use wasmouse_sdk::{
     Action, Briefing, CellSet, Robot, Run, Search, Sensors, Tracker, Turn, View, export_robot,
 };
 
-/// What the robot remembers from step to step.
+/// What the robot remembers between steps.
 pub struct MyRobot {
-    /// Where it is, and the walls it has seen.
+    /// Its position and the walls that it has seen.
     tracker: Tracker,
-    /// Finds the way with the fewest steps; a step drives up to three cells.
+    /// Finds the path with the fewest steps; one step drives up to three cells.
     search: Search,
     goal: CellSet,
 }
@@ -17,7 +17,7 @@ pub struct MyRobot {
 export_robot!(MyRobot);
 
 impl Robot for MyRobot {
-    /// Called once. The briefing has the size of the maze, the goal, the budget.
+    /// Called once. The briefing has the size of the maze, the goal and the budget.
     fn start(briefing: &Briefing) -> Self {
         Self {
             tracker: Tracker::new(briefing),
@@ -26,15 +26,16 @@ impl Robot for MyRobot {
         }
     }
 
-    /// Called once a step, with the open cells to the left, ahead and to the right.
+    /// Called once per step, with the number of open cells to the left, ahead and to the
+    /// right.
     fn next_move(&mut self, sensors: Sensors) -> Action {
         self.tracker.observe(sensors);
-        // In the goal, the first run has done its work. A robot that goes on
-        // exploring here may find a shorter way: an exploring step costs 1/30.
+        // The exploration run may end as soon as the robot has reached the goal. Exploring
+        // further may find a shorter path: a step of the exploration run costs only 1/30.
         if self.tracker.may_reset() {
             return self.tracker.reset();
         }
-        // Exploring, unknown walls count as open; racing, as closed.
+        // The exploration run treats unknown walls as open, the speed run as closed.
         let view = match self.tracker.run() {
             Run::Exploration => View::Optimistic,
             Run::Speed => View::Pessimistic,
@@ -45,7 +46,7 @@ impl Robot for MyRobot {
         let hop = self.search.route(passages, pose).next();
         match hop {
             Some(hop) => self.tracker.go(hop.heading, hop.cells),
-            // The goal is walled in: nothing is left to try.
+            // No path leads to the goal, so there is nothing left to try.
             None => self.tracker.turn(Turn::Right),
         }
     }

@@ -16,13 +16,13 @@ const ENTROPY_BYTES_MAX: u64 = 8 << 10;
 
 const EXPORTS: &str = r#"(module
     (memory (export "memory") 1 20)
-    (func (export "wasmouse:robot/controller@0.1.0#start")
-        (param i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i64 i32))
-    (func (export "wasmouse:robot/controller@0.1.0#next-move")
+    (func (export "wasmouse:robot/controller@0.2.0#start")
+        (param i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i64 i32))
+    (func (export "wasmouse:robot/controller@0.2.0#next-move")
         (param i32 i32 i32) (result i32) i32.const 16))"#;
 
 const IMPORTS: &str = r#"(module
-    (import "wasmouse:robot/journal@0.1.0" "log" (func (param i32 i32 i32))))"#;
+    (import "wasmouse:robot/journal@0.2.0" "log" (func (param i32 i32 i32))))"#;
 
 fn main() -> ExitCode {
     match serve() {

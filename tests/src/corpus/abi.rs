@@ -12,6 +12,7 @@ pub fn cases() -> Vec<Case> {
     [
         actions(),
         pointers(),
+        panics(),
         text(),
         floods(),
         forged(),
@@ -129,6 +130,62 @@ fn log_text(text: &[u8]) -> Vec<u8> {
     .component()
 }
 
+/// A robot that panics with these bytes in its first step.
+fn panic_with(text: &[u8]) -> Vec<u8> {
+    Module {
+        imports: r#"(import "wasmouse:robot/journal@VERSION" "panic"
+            (func $panic (param i32 i32)))"#,
+        rest: &format!(r#"(data (i32.const 1024) "{}")"#, escaped(text)),
+        next: &format!(
+            "(call $panic (i32.const 1024) (i32.const {})) unreachable",
+            text.len()
+        ),
+        ..Module::default()
+    }
+    .component()
+}
+
+/// Panics: the message is the only text of a robot in a verdict.
+fn panics() -> Vec<Case> {
+    const FORGED: &str = "\u{1b}[31mred\nfault of `flood`: \u{202e}\u{9b}<script>alert(1)</script>";
+    vec![
+        Case::new(
+            &[43],
+            "panic-with-a-forged-message",
+            fault("panic", &format!("panicked: {FORGED}")),
+            || panic_with(FORGED.as_bytes()),
+        )
+        .shown(),
+        Case::new(
+            &[40],
+            "panic-with-invalid-utf-8",
+            violation("invalid utf-8 sequence of 1 bytes from index 3"),
+            || panic_with(b"ok \xff"),
+        ),
+        Case::new(
+            &[41],
+            "panic-with-a-long-message",
+            fault("panic", &format!("panicked: a{}", "\u{e9}".repeat(999))),
+            || panic_with(format!("a{}", "\u{e9}".repeat(20_000)).as_bytes()),
+        )
+        .shown(),
+        Case::new(
+            &[40],
+            "panic-outside-memory",
+            violation("string pointer/length out of bounds of memory"),
+            || {
+                Module {
+                    imports: r#"(import "wasmouse:robot/journal@VERSION" "panic"
+                        (func $panic (param i32 i32)))"#,
+                    next: "(call $panic (i32.const -8) (i32.const 16)) unreachable",
+                    ..Module::default()
+                }
+                .component()
+            },
+        ),
+    ]
+}
+
 fn text() -> Vec<Case> {
     let malformed = |name: &str, bytes: &'static [u8], detail: &str| {
         Case::new(&[40], name, violation(detail), move || log_text(bytes))
@@ -181,7 +238,7 @@ fn floods() -> Vec<Case> {
     let flood = |numbers: &'static [u8], name: &str, import: &'static str, call: &'static str| {
         Case::new(numbers, name, out_of_step_fuel(), move || {
             Module {
-                imports: &format!(r#"(import "wasmouse:robot/journal@0.1.0" {import})"#),
+                imports: &format!(r#"(import "wasmouse:robot/journal@VERSION" {import})"#),
                 next: &format!("(loop $forever {call} br $forever) unreachable"),
                 ..Module::default()
             }
@@ -263,7 +320,7 @@ fn forged() -> Vec<Case> {
             }
             Module {
                 imports: &format!(
-                    r#"{IMPORT_LOG} (import "wasmouse:robot/journal@0.1.0" "label"
+                    r#"{IMPORT_LOG} (import "wasmouse:robot/journal@VERSION" "label"
                         (func $label (param i32 i32 i32 i32)))"#
                 ),
                 rest: &data,
@@ -382,7 +439,7 @@ fn after_the_action() -> Vec<Case> {
             Module {
                 imports: IMPORT_LOG,
                 rest: &format!(
-                    r#"(func (export "cabi_post_wasmouse:robot/controller@0.1.0#next-move")
+                    r#"(func (export "cabi_post_wasmouse:robot/controller@VERSION#next-move")
                         (param i32) {body})"#
                 ),
                 ..Module::default()

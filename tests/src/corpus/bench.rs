@@ -277,7 +277,7 @@ impl Judgement {
             self.problems
                 .push(format!("{what} has the character {character:?}"));
         }
-        if text.contains("panicked") {
+        if text.contains("panicked at") {
             self.problems.push(format!("{what} reports a panic"));
         }
     }

@@ -4,6 +4,8 @@ use std::fmt;
 
 use serde_json::{Value, json};
 
+use crate::module::versioned;
+
 /// How the binary runs robots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
@@ -216,7 +218,7 @@ pub fn out_of_match_fuel(step: u32) -> Value {
 
 /// The file is not admitted.
 pub fn rejected(kind: &str, reason: &str) -> Value {
-    json!({"rejection": {"kind": kind, "reason": reason}})
+    json!({"rejection": {"kind": kind, "reason": versioned(reason)}})
 }
 
 /// The file exceeds a limit.

@@ -121,7 +121,7 @@ fn endless_loops() -> Vec<Case> {
 fn post_return(body: &str) -> Vec<u8> {
     Module {
         rest: &format!(
-            r#"(func (export "cabi_post_wasmouse:robot/controller@0.1.0#next-move")
+            r#"(func (export "cabi_post_wasmouse:robot/controller@VERSION#next-move")
                 (param i32) {body})"#
         ),
         ..Module::default()

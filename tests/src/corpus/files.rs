@@ -222,7 +222,7 @@ fn sections() -> Vec<Case> {
             "malformed-names-in-a-core-module",
             rejected(
                 "core-module",
-                "core module does not fit the world `wasmouse:robot/robot@0.1.0`: ...",
+                "core module does not fit the world `wasmouse:robot/robot@VERSION`: ...",
             ),
             || [Module::default().core(), custom("name", &noise())].concat(),
         ),

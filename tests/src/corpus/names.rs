@@ -155,7 +155,7 @@ fn module_names() -> Vec<Case> {
         Case::new(
             &[69],
             "module-export-with-an-escape",
-            rejected("core-module", "core module without component types that exports neither `wasmouse:robot/controller@0.1.0#start` nor `wasmouse:robot/controller@0.1.0#next-move`; it exports `\\u{1b}[31m\\u{9b}m\\u{202e}`"),
+            rejected("core-module", "core module without component types that exports neither `wasmouse:robot/controller@VERSION#start` nor `wasmouse:robot/controller@VERSION#next-move`; it exports `\\u{1b}[31m\\u{9b}m\\u{202e}`"),
             || wasm(r#"(module (func (export "\1b[31m\u{9b}m\u{202e}")))"#),
         )
         .shown(),
@@ -164,11 +164,11 @@ fn module_names() -> Vec<Case> {
             "journal-function-with-an-escape",
             rejected(
                 "core-module",
-                "core module does not fit the world `wasmouse:robot/robot@0.1.0`: failed to decode world from module: ... is missing function `...` that is required by the module",
+                "core module does not fit the world `wasmouse:robot/robot@VERSION`: failed to decode world from module: ... is missing function `...` that is required by the module",
             ),
             || {
                 Module {
-                    imports: r#"(import "wasmouse:robot/journal@0.1.0" "\1b[31m\u{9b}m\u{202e}"
+                    imports: r#"(import "wasmouse:robot/journal@VERSION" "\1b[31m\u{9b}m\u{202e}"
                     (func))"#,
                     ..Module::default()
                 }

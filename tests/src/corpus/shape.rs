@@ -2,9 +2,9 @@
 
 use serde_json::Value;
 
-use super::case::{Case, invalid, rejected};
+use super::case::{Case, harmless, invalid, rejected};
 use crate::composite::{Composite, TYPES};
-use crate::module::{Module, START_PARAMETERS, wasm};
+use crate::module::{Module, START_PARAMETERS, versioned, wasm};
 
 /// The cases 54 and 58 to 60.
 pub fn cases() -> Vec<Case> {
@@ -21,7 +21,7 @@ fn modules() -> Vec<Case> {
         })
     };
     let start =
-        format!(r#"(func (export "wasmouse:robot/controller@0.1.0#start") {START_PARAMETERS})"#);
+        format!(r#"(func (export "wasmouse:robot/controller@VERSION#start") {START_PARAMETERS})"#);
     let importing = |import: &str| {
         Module {
             imports: import,
@@ -33,13 +33,13 @@ fn modules() -> Vec<Case> {
         module(
             "empty-module",
             "core module without component types that exports neither \
-             `wasmouse:robot/controller@0.1.0#start` nor \
-             `wasmouse:robot/controller@0.1.0#next-move`; it exports nothing",
+             `wasmouse:robot/controller@VERSION#start` nor \
+             `wasmouse:robot/controller@VERSION#next-move`; it exports nothing",
             "(module)".into(),
         ),
         module(
             "module-without-next-move",
-            "core module without the export `wasmouse:robot/controller@0.1.0#next-move`",
+            "core module without the export `wasmouse:robot/controller@VERSION#next-move`",
             format!(r#"(module (memory (export "memory") 1) {start})"#),
         ),
         module(
@@ -64,8 +64,8 @@ fn modules() -> Vec<Case> {
             "module-with-other-signatures",
             "...: type mismatch for function `start`: expected `[...]` but found `[] -> []`",
             r#"(module (memory (export "memory") 1)
-                (func (export "wasmouse:robot/controller@0.1.0#start"))
-                (func (export "wasmouse:robot/controller@0.1.0#next-move")
+                (func (export "wasmouse:robot/controller@VERSION#start"))
+                (func (export "wasmouse:robot/controller@VERSION#next-move")
                     (param i32 i32 i32) (result i32) i32.const 0))"#
                 .into(),
         ),
@@ -86,7 +86,7 @@ fn modules() -> Vec<Case> {
             "module-that-lowers-asynchronously",
             "...: the `async` canonical option requires an async function type...",
             importing(
-                r#"(import "wasmouse:robot/journal@0.1.0" "[async-lower]log"
+                r#"(import "wasmouse:robot/journal@VERSION" "[async-lower]log"
                 (func (param i32 i32 i32) (result i32)))"#,
             ),
         ),
@@ -94,7 +94,7 @@ fn modules() -> Vec<Case> {
             "module-that-drops-resources-of-the-journal",
             "... is missing function `[resource-drop]log` that is required by the module",
             importing(
-                r#"(import "wasmouse:robot/journal@0.1.0" "[resource-drop]log"
+                r#"(import "wasmouse:robot/journal@VERSION" "[resource-drop]log"
                 (func (param i32)))"#,
             ),
         ),
@@ -102,18 +102,18 @@ fn modules() -> Vec<Case> {
             "module-that-imports-another-log",
             "...: type mismatch for function `log`: expected `[I32, I32, I32] -> []` but found `[I64] -> []`",
             importing(
-                r#"(import "wasmouse:robot/journal@0.1.0" "log"
+                r#"(import "wasmouse:robot/journal@VERSION" "log"
                 (func (param i64)))"#,
             ),
         ),
         module(
             "module-that-imports-what-the-journal-lacks",
             "... is missing function `win` that is required by the module",
-            importing(r#"(import "wasmouse:robot/journal@0.1.0" "win" (func))"#),
+            importing(r#"(import "wasmouse:robot/journal@VERSION" "win" (func))"#),
         ),
         module(
             "module-with-two-starts",
-            "malformed core module: duplicate export name `wasmouse:robot/controller@0.1.0#start` already defined at byte ...",
+            "malformed core module: duplicate export name `wasmouse:robot/controller@VERSION#start` already defined at byte ...",
             Module {
                 rest: &start,
                 ..Module::default()
@@ -125,9 +125,14 @@ fn modules() -> Vec<Case> {
 
 /// A component with that text for another, which has to be there.
 fn changed(right: &'static str, wrong: &str) -> Vec<u8> {
-    let text = Composite::default().wat();
-    assert!(text.contains(right), "{right}");
-    wasm(&text.replace(right, wrong))
+    let (text, right) = (Composite::default().wat(), versioned(right));
+    assert!(text.contains(&right), "{right}");
+    wasm(&text.replace(&right, wrong))
+}
+
+fn other_version(version: &str) -> Value {
+    let reason = format!("the robot was built for wasmouse:robot@{version}; this host runs 0.2.x");
+    rejected("other-version", &reason)
 }
 
 fn exports() -> Vec<Case> {
@@ -139,11 +144,11 @@ fn exports() -> Vec<Case> {
             "no-controller",
             &format!(
                 "the component does not export \
-            `wasmouse:robot/controller@0.1.0`; it exports {exports}"
+            `wasmouse:robot/controller@VERSION`; it exports {exports}"
             ),
         )
     };
-    const EXPORT: &str = r#"(export "wasmouse:robot/controller@0.1.0" (instance $controller))"#;
+    const EXPORT: &str = r#"(export "wasmouse:robot/controller@VERSION" (instance $controller))"#;
     const NEXT: &str = r#"(export "next-move" (func $next-move))"#;
     let wrong_type = |reason: &str| {
         rejected(
@@ -158,31 +163,38 @@ fn exports() -> Vec<Case> {
         other("controller-not-exported", missing("nothing"), EXPORT, ""),
         other(
             "controller-of-another-version",
-            missing("`wasmouse:robot/controller@0.2.0`"),
+            other_version("0.1.0"),
             EXPORT,
-            r#"(export "wasmouse:robot/controller@0.2.0" (instance $controller))"#,
+            r#"(export "wasmouse:robot/controller@0.1.0" (instance $controller))"#,
         ),
         other(
             "controller-misspelt",
-            missing("`wasmouse:robot/controler@0.1.0`"),
+            missing("`wasmouse:robot/controler@VERSION`"),
             EXPORT,
-            r#"(export "wasmouse:robot/controler@0.1.0" (instance $controller))"#,
+            r#"(export "wasmouse:robot/controler@VERSION" (instance $controller))"#,
         ),
         other(
             "controller-of-a-later-patch",
-            missing("`wasmouse:robot/controller@0.1.1`"),
+            harmless(),
             EXPORT,
-            r#"(export "wasmouse:robot/controller@0.1.1" (instance $controller))"#,
+            r#"(export "wasmouse:robot/controller@0.2.99" (instance $controller))"#,
+        ),
+        other(
+            "controller-of-two-patch-versions",
+            wrong_type("`wasmouse:robot/controller@VERSION` is not an interface"),
+            EXPORT,
+            r#"(export "wasmouse:robot/controller@0.2.99" (instance $controller))
+                (export "wasmouse:robot/controller@VERSION" (func $start))"#,
         ),
         other(
             "controller-that-is-a-function",
-            wrong_type("`wasmouse:robot/controller@0.1.0` is not an interface"),
+            wrong_type("`wasmouse:robot/controller@VERSION` is not an interface"),
             EXPORT,
-            r#"(export "wasmouse:robot/controller@0.1.0" (func $start))"#,
+            r#"(export "wasmouse:robot/controller@VERSION" (func $start))"#,
         ),
         other(
             "controller-without-next-move",
-            wrong_type("`wasmouse:robot/controller@0.1.0` has no function `next-move`"),
+            wrong_type("`wasmouse:robot/controller@VERSION` has no function `next-move`"),
             NEXT,
             "",
         ),
@@ -245,11 +257,11 @@ fn imports() -> Vec<Case> {
             "wasi:sockets/tcp@0.2.0",
             r#"(import "wasi:sockets/tcp@0.2.0" (instance))"#,
         ),
-        unknown(
+        Case::new(
             &[59],
             "import-of-a-later-journal",
-            "wasmouse:robot/journal@0.2.0",
-            r#"(import "wasmouse:robot/journal@0.2.0" (instance))"#,
+            other_version("0.3.0"),
+            || wasm(r#"(component (import "wasmouse:robot/journal@0.3.0" (instance)))"#),
         ),
         Case::new(
             &[59],
@@ -261,9 +273,9 @@ fn imports() -> Vec<Case> {
             || {
                 wasm(
                     r#"(component
-                (import "wasmouse:robot/journal@0.1.0" (instance (export "log" (func))))
+                (import "wasmouse:robot/journal@VERSION" (instance (export "log" (func))))
                 (instance $empty)
-                (export "wasmouse:robot/controller@0.1.0" (instance $empty)))"#,
+                (export "wasmouse:robot/controller@VERSION" (instance $empty)))"#,
                 )
             },
         ),
@@ -331,9 +343,9 @@ fn imports() -> Vec<Case> {
             || {
                 wasm(&format!(
                     r#"(component {TYPES}
-                (import "wasmouse:robot/journal@0.1.0" (core module))
+                (import "wasmouse:robot/journal@VERSION" (core module))
                 (instance $empty)
-                (export "wasmouse:robot/controller@0.1.0" (instance $empty)))"#
+                (export "wasmouse:robot/controller@VERSION" (instance $empty)))"#
                 ))
             },
         ),

@@ -308,7 +308,7 @@ fn proposals() -> Vec<Case> {
             "asynchronous-lift",
             "canonical option `async` requires the component model async feature",
             r#"(func (canon lift (core func $robot
-            "wasmouse:robot/controller@0.1.0#start") async))"#,
+            "wasmouse:robot/controller@VERSION#start") async))"#,
         ),
         component(
             "asynchronous-lower",

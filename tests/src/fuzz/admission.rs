@@ -1,6 +1,7 @@
 //! Files that claim to be robots: everything before they are compiled.
 
 use wasmouse::robot::bundled::bundled;
+use wasmouse::robot::componentize::{CONTROLLER_EXPORTS, JOURNAL_IMPORT};
 use wasmouse::robot::worker::fuzz;
 
 use super::Target;
@@ -14,8 +15,8 @@ pub(super) const TARGET: Target = Target {
     words: &[
         b"\0asm\x0d\0\x01\0",
         b"\0asm\x01\0\0\0",
-        b"wasmouse:robot/controller@0.1.0",
-        b"wasmouse:robot/journal@0.1.0",
+        CONTROLLER_EXPORTS[0].as_bytes(),
+        JOURNAL_IMPORT.as_bytes(),
         b"component-type",
         b"memory",
         b"cabi_realloc",

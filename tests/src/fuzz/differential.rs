@@ -22,7 +22,7 @@ pub(super) const TARGET: Target = Target {
             None => "nothing to wrap".into(),
         })
     },
-    short: 30,
+    short: 60,
     takes_modules: true,
 };
 

@@ -84,11 +84,11 @@ fn driven(module: &[u8]) -> Vec<u8> {
            (import "guest" "{}" (func $next (param i32 i32 i32) (result i32)))"#,
         names[0], names[1]
     );
-    let start: String = (0..13).map(|it| format!("local.get {it} ")).collect();
+    let start: String = (0..14).map(|it| format!("local.get {it} ")).collect();
     // The text format has no place for a module in binary form.
     let before = r#"(core module $guest)
         (core instance $guest (instantiate $guest
-            (with "wasmouse:robot/journal@0.1.0" (instance $lowered))))"#;
+            (with "wasmouse:robot/journal@VERSION" (instance $lowered))))"#;
     let composite = Composite {
         robot: Module {
             imports: &imports,

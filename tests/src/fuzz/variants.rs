@@ -6,10 +6,13 @@
 //! robots through wasmtime's dynamic interface and knows neither fuel nor journal.
 
 use wasmouse::maze::{Maze, Turn};
+use wasmouse::robot::componentize::JOURNAL_IMPORT;
 use wasmouse::robot::engine_config;
 use wasmouse::sim::{Action, BudgetScope, Ruleset, Run, Sensors, Simulation, Trace};
 use wasmtime::component::{Component, Func, Instance, Linker, Val};
 use wasmtime::{Config, Engine, InstanceAllocationStrategy, OptLevel, Store, Trap};
+
+use crate::module::versioned;
 
 /// A way to set up wasmtime.
 pub struct Variant {
@@ -128,18 +131,20 @@ impl Variant {
 
 fn linker(engine: &Engine) -> Result<Linker<()>> {
     let mut linker = Linker::new(engine);
-    linker.instance("wasmouse:robot/types@0.1.0")?;
-    let mut journal = linker.instance("wasmouse:robot/journal@0.1.0")?;
+    linker.instance(&versioned("wasmouse:robot/types@VERSION"))?;
+    let mut journal = linker.instance(JOURNAL_IMPORT)?;
     for name in ["log", "paint", "label", "wall"] {
         journal.func_new(name, |_, _, _, _| Ok(()))?;
     }
+    journal.func_new("panic", |_, _, _, _| Err(wasmtime::Error::msg("panicked")))?;
     Ok(linker)
 }
 
 fn function(store: &mut Store<()>, instance: &Instance, name: &str) -> Result<Func> {
     let missing = || wasmtime::Error::msg("no such export");
+    let name_of_controller = versioned("wasmouse:robot/controller@VERSION");
     let controller = instance
-        .get_export_index(&mut *store, None, "wasmouse:robot/controller@0.1.0")
+        .get_export_index(&mut *store, None, &name_of_controller)
         .ok_or_else(missing)?;
     let index = instance
         .get_export_index(&mut *store, Some(&controller), name)
@@ -177,9 +182,10 @@ fn briefing(maze: &Maze, rules: &Ruleset, seed: u64, setting: u32) -> Val {
         ("budget", Val::U32(rules.budget)),
         ("budget-scope", Val::Enum(scope.to_owned())),
         ("longest-move", Val::U32(rules.longest_move.into())),
+        ("units-per-cell", Val::U32(1)),
         ("exploration-divisor", Val::U32(rules.exploration_divisor)),
         ("seed", Val::U64(seed)),
-        ("setting", Val::U32(setting)),
+        ("variant", Val::U32(setting)),
     ])
 }
 

@@ -1,12 +1,10 @@
-//! What crosses between a robot and the simulation: [`Sensors`] in, [`Action`] out.
-//!
-//! The same values as in `wit/robot.wit`, without any wasm in them.
+//! The input and output of a robot in a step: [`Sensors`] and [`Action`], as in
+//! `wit/robot.wit`.
 
 use crate::maze::Turn;
-use serde::{Deserialize, Serialize};
 
-/// The readings before a step: open cells to the nearest wall, relative to the
-/// robot's heading. Range of each: 0 to the maze's dimension - 1.
+/// The readings before a step: the number of open cells to the nearest wall in three
+/// directions, relative to the robot's heading. Range of each: 0 to the maze size - 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Sensors {
     /// Open cells to the left.
@@ -17,17 +15,17 @@ pub struct Sensors {
     pub right: u8,
 }
 
-/// What a robot does in one step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+/// What a robot does in a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Action {
-    /// Turn, then drive that many cells along the new heading. Negative drives
-    /// backwards; the simulation clamps to the ruleset's longest move.
+    /// Turn, then drive along the new heading.
     Move {
-        /// The rotation, done first.
+        /// The rotation before the move.
         turn: Turn,
-        /// Cells to drive; any `i8`.
+        /// Cells to drive; negative drives backwards. Any value is valid: the simulation
+        /// clamps it to the longest move of the rules.
         advance: i8,
     },
-    /// End the exploration run and begin the speed run.
+    /// End the exploration run and start the speed run.
     Reset,
 }

@@ -1,8 +1,7 @@
-//! One match without its robot: rules, sensors, motion, score, trace, verdict.
+//! A match without its robot: rules, sensors, motion, score, trace, verdict.
 //!
-//! Pure: a [`Simulation`] is given the robot's actions and knows neither wasm nor time nor
-//! chance. The rules are those of the Udacity "Plot and Navigate a Virtual Maze" contest, as
-//! its public tester plays them.
+//! The caller of a [`Simulation`] passes it the robot's actions. The rules are those of the
+//! Udacity "Plot and Navigate a Virtual Maze" contest, as its public tester implements them.
 
 mod action;
 mod rules;

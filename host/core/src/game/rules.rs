@@ -1,46 +1,65 @@
-//! [`Ruleset`]: the numbers of a contest, named and versioned.
+//! [`Ruleset`]: the rules of a contest, with a name and a version.
 
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::{SandboxLimits, Score};
 use crate::maze::{Maze, oracle_steps};
 use crate::{Digest, DigestBuilder};
 
-/// What the step budget counts.
+/// What the step budget applies to. Serialises as `"both-runs"` or `"each-run"`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum BudgetScope {
-    /// Both runs share it.
+    /// Both runs together.
     BothRuns,
-    /// Each run has all of it.
+    /// Each run alone.
     EachRun,
 }
 
-/// The rules of the game, which the simulation applies.
+/// The rules of the game. Serialises as an object with these fields; deserialising fails if a
+/// number is out of range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GameRules {
-    /// Steps that a robot may take; the last one still counts. Range: at least 1. Default
-    /// 1000.
+    /// The most steps of a match or of a run. Range: at least 1. Default 1000.
+    #[serde(deserialize_with = "at_least_1")]
     pub budget: u32,
-    /// Whether `budget` is for both runs together or for each.
+    /// Whether `budget` applies to both runs together or to each.
     pub budget_scope: BudgetScope,
-    /// The longest move in one step, in cells. Range: at least 1. Default 3.
+    /// The longest move in a step, in cells. Range: at least 1. Default 3.
+    #[serde(deserialize_with = "at_least_1")]
     pub longest_move: u8,
-    /// The steps of the exploration run are divided by this in the score. Range: at least
-    /// 1. Default 30.
+    /// The divisor of the exploration run's steps in the score. Range: at least 1. Default 30.
+    #[serde(deserialize_with = "at_least_1")]
     pub exploration_divisor: u32,
 }
 
+fn at_least_1<'de, D, N>(deserializer: D) -> Result<N, D::Error>
+where
+    D: Deserializer<'de>,
+    N: Deserialize<'de> + Default + PartialEq,
+{
+    let number = N::deserialize(deserializer)?;
+    if number == N::default() {
+        return Err(D::Error::custom("expected a number of at least 1, found 0"));
+    }
+    Ok(number)
+}
+
 impl GameRules {
-    /// The score of a robot that knows the maze: the optimal path, a reset, and the
-    /// optimal path again. `None` when the goal cannot be reached.
+    /// The score of a robot that knows the maze: the optimal path, a reset, and the optimal
+    /// path again. `None` if the goal is unreachable.
     pub fn oracle_score(&self, maze: &Maze) -> Option<Score> {
         let steps = oracle_steps(maze, self.longest_move)?;
         Some(self.score(steps.speed_steps, steps.exploration_steps))
     }
 
-    /// The score of that many steps.
+    /// The score of a finished match with these steps.
+    ///
+    /// # Panics
+    ///
+    /// If `exploration_divisor` is 0.
     pub const fn score(&self, speed_steps: u32, exploration_steps: u32) -> Score {
         Score::new(speed_steps, exploration_steps, self.exploration_divisor)
     }
@@ -58,33 +77,33 @@ impl Default for GameRules {
     }
 }
 
-/// Everything that decides a match apart from the engine, the robot, the maze and the
-/// seed.
+/// Everything that decides a match apart from the engine, the robot, the maze and the seed.
 ///
-/// What decides whether a file is admitted in the first place is not part of it: those
-/// limits cannot change a verdict.
+/// The limits that decide whether a file is accepted as a robot are not part of it, because
+/// they cannot change a verdict. Serialises as an object with these fields.
 ///
 /// ```
 /// use wasmouse_core::game::Ruleset;
 /// let rules = Ruleset::by_name("udacity").expect("the default ruleset");
 /// assert_eq!((rules.version, rules.game.budget), (1, 1000));
+/// assert_eq!(rules, Ruleset::default());
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Ruleset {
-    /// A short name for people. Changing any number of a published ruleset means a new
-    /// version of it.
+    /// A short name for people.
     pub name: String,
-    /// Counted from 1.
+    /// The version, counted from 1. A change of any number of a published ruleset needs a new
+    /// one.
     pub version: u32,
     /// The rules of the game.
     pub game: GameRules,
-    /// What a robot may use while it runs.
+    /// The resources that a robot may use.
     pub sandbox: SandboxLimits,
 }
 
 impl Ruleset {
-    /// The rulesets that come with wasmouse, the default first.
+    /// The bundled rulesets, the default first: `udacity`, `udacity-each-run`.
     pub fn all() -> [Self; 2] {
         let named = |name: &str, budget_scope| Self {
             name: name.to_owned(),
@@ -101,17 +120,16 @@ impl Ruleset {
         ]
     }
 
-    /// The ruleset of that name, or `None`.
+    /// The bundled ruleset of that name.
     pub fn by_name(name: &str) -> Option<Self> {
         Self::all().into_iter().find(|rules| rules.name == name)
     }
 
-    /// The identity of the rules: two rulesets with the same numbers have the same digest,
-    /// whatever they are called.
+    /// The identity of the rules. It does not depend on the name and the version.
     ///
     /// Canonical encoding `wasmouse.rules.1` ([`DigestBuilder`]): the numbers `budget`,
     /// `budget_scope` (0 both runs, 1 each run), `longest_move`, `exploration_divisor`, then
-    /// the fields of [`SandboxLimits`] in their order.
+    /// the fields of [`SandboxLimits`] in order.
     pub fn digest(&self) -> Digest {
         let GameRules {
             budget,
@@ -161,7 +179,24 @@ mod tests {
     }
 
     #[test]
-    fn a_name_is_not_part_of_the_identity() {
+    fn rules_deserialise_only_in_range() {
+        let json = serde_json::to_string(&Ruleset::default()).expect("it serialises");
+        let parsed = serde_json::from_str::<Ruleset>(&json).ok();
+        assert_eq!(parsed, Some(Ruleset::default()));
+        for field in [
+            "budget\":1000",
+            "longest_move\":3",
+            "exploration_divisor\":30",
+        ] {
+            let name = field.trim_end_matches(|c: char| c.is_ascii_digit());
+            let changed = json.replace(field, &format!("{name}0"));
+            let error = serde_json::from_str::<Ruleset>(&changed).expect_err(field);
+            assert!(error.to_string().contains("at least 1, found 0"), "{error}");
+        }
+    }
+
+    #[test]
+    fn name_and_version_are_not_part_of_the_identity() {
         let mut rules = Ruleset::default();
         let digest = rules.digest();
         rules.name = "mine".to_owned();

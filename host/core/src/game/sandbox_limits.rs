@@ -1,16 +1,15 @@
-//! [`SandboxLimits`]: every limit on what a running robot may use, each with the attack
+//! [`SandboxLimits`]: all limits on the resources of a running robot, each with the attack
 //! that it stops.
 //!
-//! Plain numbers: the engine enforces them. They are part of the ruleset because a verdict
-//! can depend on each of them.
+//! The engine enforces them. They are part of the ruleset because each can change a verdict.
 
 use serde::{Deserialize, Serialize};
 
-/// The limits of one match.
+/// The limits of one match. Serialises as an object with these fields.
 ///
-/// The defaults are wide enough for interpreted languages (a Python or JavaScript robot
-/// takes 20,000 to 100,000 units of fuel for a simple step, a compiled one about 70) and
-/// still end an endless loop within seconds.
+/// The defaults are high enough for interpreted languages (a Python or JavaScript robot uses
+/// 20,000 to 100,000 units of fuel for a simple step, a compiled one about 70) and still end an
+/// endless loop within seconds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SandboxLimits {
@@ -20,28 +19,28 @@ pub struct SandboxLimits {
     /// Fuel for one call of `next-move`. Stops endless loops in a step. Default
     /// 2,000,000,000.
     pub step_fuel_max: u64,
-    /// Fuel for `start` and all steps of a match together. Stops robots that stay just
-    /// under the step limit a thousand times. Default 20,000,000,000.
+    /// Fuel for `start` and all steps of a match together. Stops robots that stay just under
+    /// the limit in each of a thousand steps. Default 20,000,000,000.
     pub match_fuel_max: u64,
-    /// Linear memory of all instances of a match together, in bytes. Stops `memory.grow`,
-    /// and many memories that are each just under a per-memory cap. Default 256 MiB.
+    /// Linear memory of all instances of a match together, in bytes. Stops `memory.grow`, and
+    /// many memories that are each just under a limit per memory. Default 256 MiB.
     pub memory_bytes_max: u64,
     /// Table elements of all instances of a match together. Stops `table.grow`. Default
     /// 100,000.
     pub table_elements_max: u64,
     /// Wasm call stack, in bytes. Stops unbounded recursion. Default 512 KiB.
     pub stack_bytes_max: u64,
-    /// Journal of a match, in bytes: 16 for each entry plus the length of its text. Stops
-    /// robots that fill the host's memory with log lines. Later entries are dropped and
-    /// counted. Default 1 MiB.
+    /// Journal of a match, in bytes: [`ENTRY_BYTES`](crate::journal::ENTRY_BYTES) for each
+    /// entry plus the length of its text. Stops robots that fill the host's memory with log
+    /// lines. Entries beyond it are dropped and counted. Default 1 MiB.
     pub journal_bytes_max: u64,
-    /// Bytes that one call into the host may copy out of the robot. Stops a log line of
+    /// Bytes that a single call into the host may copy from the robot. Stops log lines of
     /// gigabytes. Default 64 KiB.
     pub host_call_bytes_max: u64,
 }
 
 impl SandboxLimits {
-    /// The limits as numbers for a canonical encoding, in the order of the fields.
+    /// The limits for a canonical encoding, in the order of the fields.
     pub(super) const fn numbers(&self) -> [u64; 8] {
         let Self {
             start_fuel_max,

@@ -1,16 +1,18 @@
-//! [`Score`]: what a finished match is worth, as exact integers.
+//! [`Score`]: the score of a finished match, as exact integers.
 
 use std::cmp::Ordering;
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// Steps of the speed run plus steps of the exploration run over a divisor; lower is
+/// Steps of the speed run plus steps of the exploration run divided by a divisor; lower is
 /// better.
 ///
-/// Kept as integers, so that comparing and printing are exact. Displays with
-/// three decimals, rounded half to even. Serialises with all of its parts and the rounded
-/// value in thousandths, which has to fit the parts when it is read.
+/// The parts are integers, so that comparisons are exact. Two scores are equal if their values
+/// are, whatever their parts. Displays with three decimals, rounded half to even.
+///
+/// Serialises as `{"thousandths": 20667, "speed_steps": 17, "exploration_steps": 110,
+/// "exploration_divisor": 30}`; deserialising fails if the thousandths do not match the parts.
 ///
 /// ```
 /// use wasmouse_core::game::Score;
@@ -31,9 +33,9 @@ impl Score {
     ///
     /// # Panics
     ///
-    /// When `divisor` is 0.
+    /// If `divisor` is 0.
     pub const fn new(speed_steps: u32, exploration_steps: u32, divisor: u32) -> Self {
-        assert!(divisor > 0, "the exploration divisor is at least 1");
+        assert!(divisor > 0, "the exploration divisor is 0");
         Self {
             speed_steps,
             exploration_steps,
@@ -46,12 +48,12 @@ impl Score {
         self.speed_steps
     }
 
-    /// Steps of the exploration run, the reset included.
+    /// Steps of the exploration run, including the reset.
     pub const fn exploration_steps(self) -> u32 {
         self.exploration_steps
     }
 
-    /// What the steps of the exploration run are divided by; at least 1.
+    /// The divisor of the exploration run's steps; at least 1.
     pub const fn divisor(self) -> u32 {
         self.divisor
     }
@@ -128,18 +130,17 @@ impl TryFrom<Form> for Score {
 
     fn try_from(form: Form) -> Result<Self, &'static str> {
         if form.exploration_divisor == 0 {
-            return Err("an exploration divisor is at least 1");
+            return Err("the exploration divisor of a score is 0");
         }
         let score = Self::new(
             form.speed_steps,
             form.exploration_steps,
             form.exploration_divisor,
         );
-        if score.thousandths() == form.thousandths {
-            Ok(score)
-        } else {
-            Err("the thousandths of a score are not those of its steps")
-        }
+        let is_consistent = score.thousandths() == form.thousandths;
+        is_consistent
+            .then_some(score)
+            .ok_or("the thousandths of a score do not match its steps")
     }
 }
 
@@ -148,7 +149,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn prints_three_decimals() {
+    fn a_score_displays_three_decimals() {
         for (speed, exploration, divisor, text) in [
             (17, 18, 30, "17.600"),
             (22, 23, 30, "22.767"),
@@ -163,8 +164,25 @@ mod tests {
     }
 
     #[test]
-    fn compares_exactly() {
+    fn scores_compare_exactly() {
         assert_eq!(Score::new(1, 0, 30), Score::new(0, 7, 7));
         assert!(Score::new(10, 1, 3) > Score::new(10, 33, 100));
+    }
+
+    #[test]
+    fn a_score_deserialises_only_if_it_is_consistent() {
+        let json = r#"{"thousandths":20667,"speed_steps":17,"exploration_steps":110,"exploration_divisor":30}"#;
+        let score = serde_json::from_str::<Score>(json).expect("a score");
+        assert_eq!(score, Score::new(17, 110, 30));
+        assert_eq!(serde_json::to_string(&score).expect("it serialises"), json);
+        for (from, to, message) in [
+            ("20667", "20666", "do not match its steps"),
+            (":30", ":0", "divisor of a score is 0"),
+            ("{", "{\"seed\":1,", "unknown field"),
+        ] {
+            let changed = json.replace(from, to);
+            let error = serde_json::from_str::<Score>(&changed).expect_err(to);
+            assert!(error.to_string().contains(message), "{error}");
+        }
     }
 }

@@ -1,7 +1,7 @@
-//! [`Simulation`]: one match's state, sensors and motion.
+//! [`Simulation`]: the state, the sensors and the motion of a match.
 //!
-//! Exactly the contest of the reports as its public tester plays it: games
-//! recorded from that tester replay through [`Simulation::apply`] in the tests.
+//! It implements the contest of the reports exactly as its public tester does: in the tests,
+//! matches that were recorded from that tester replay through [`Simulation::apply`].
 
 use serde::{Deserialize, Serialize};
 
@@ -10,51 +10,51 @@ use super::{
 };
 use crate::maze::{Cell, Heading, Maze, Turn};
 
-/// What a step did.
+/// The effect of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Event {
-    /// The robot turned and drove.
+    /// The robot turned and moved.
     Moved {
-        /// Where it ended.
+        /// The cell at the end of the step.
         cell: Cell,
-        /// Its heading after the turn.
+        /// The heading after the turn.
         heading: Heading,
-        /// Cells covered; fewer than asked when it bumped.
+        /// Cells driven; fewer than requested if the robot bumped or the move was clamped.
         cells: u8,
-        /// A wall stopped it.
+        /// Whether a wall stopped the robot.
         bumped: bool,
-        /// The action was beyond the longest move.
+        /// Whether the action exceeded the longest move.
         clamped: bool,
     },
-    /// The exploration run ended and the speed run began at the start, heading up.
+    /// The exploration run ended; the speed run starts at the start of the maze, heading up.
     Reset,
-    /// A reset before the goal was reached: ignored, and the step is lost.
+    /// An ignored reset: the exploration run has not reached the goal. The step counts.
     ResetBeforeGoal,
-    /// A reset in the speed run: ignored, and the step is lost.
+    /// An ignored reset: the speed run has started. The step counts.
     ResetInSpeedRun,
 }
 
-/// What a match counts besides its steps.
+/// Counts of a match besides its steps. Serialises as an object with these fields.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Counts {
-    /// Steps that ended early at a wall.
+    /// Moves that a wall stopped.
     pub bumps: u32,
-    /// Moves beyond the longest move.
+    /// Moves that were clamped to the longest move.
     pub clamps: u32,
-    /// Resets ignored because the exploration run had not reached the goal.
+    /// Ignored resets before the exploration run reached the goal.
     pub resets_before_goal: u32,
-    /// Resets ignored because the speed run had begun.
+    /// Ignored resets in the speed run.
     pub resets_in_speed_run: u32,
 }
 
-/// One match in progress.
+/// A match in progress.
 ///
 /// ```
 /// use wasmouse_core::maze::{Maze, Turn, Walls};
 /// use wasmouse_core::game::{Action, GameRules, Simulation};
 ///
-/// let maze = Maze::contest(Walls::open(12)).expect("a legal start and goal");
+/// let maze = Maze::contest(Walls::open(12)).expect("start and goal fit");
 /// let rules = GameRules::default();
 /// let mut simulation = Simulation::new(&maze, &rules);
 /// assert_eq!(simulation.sense().front, 11);
@@ -96,22 +96,22 @@ impl<'a> Simulation<'a> {
         self.run
     }
 
-    /// Where the robot is.
+    /// The robot's cell.
     pub const fn cell(&self) -> Cell {
         self.cell
     }
 
-    /// Where the robot looks.
+    /// The robot's heading.
     pub const fn heading(&self) -> Heading {
         self.heading
     }
 
-    /// What has been counted so far.
+    /// The counts so far.
     pub const fn counts(&self) -> Counts {
         self.counts
     }
 
-    /// Steps taken so far; a reset that is not ignored counts in the exploration run.
+    /// The steps so far. The reset that ends the exploration run is a step of it.
     pub const fn steps(&self) -> Steps {
         self.steps
     }
@@ -131,7 +131,7 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    /// Whether the rules have ended the match.
+    /// Whether the match has ended: finished, or its budget used up.
     pub const fn has_ended(&self) -> bool {
         let used = match self.rules.budget_scope {
             BudgetScope::BothRuns => self.steps.total(),
@@ -140,7 +140,7 @@ impl<'a> Simulation<'a> {
         self.finished || used >= self.rules.budget
     }
 
-    /// The verdict of a match that the rules have ended, or `None` while it goes on.
+    /// The verdict of a match that has ended by the rules; `None` if it has not.
     pub fn verdict(&self) -> Option<Verdict> {
         if self.finished {
             let score = self.rules.score(self.steps.speed, self.steps.exploration);
@@ -151,7 +151,7 @@ impl<'a> Simulation<'a> {
         })
     }
 
-    /// The fault of a robot that failed where the match is now.
+    /// A fault of the robot at this point of the match.
     pub fn fault(&self, kind: FaultKind, phase: Phase, detail: String) -> Fault {
         Fault {
             kind,
@@ -166,11 +166,11 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    /// Carries out one step.
+    /// Plays one step.
     ///
     /// # Panics
     ///
-    /// When the match has ended ([`Simulation::has_ended`]).
+    /// If the match has ended ([`Simulation::has_ended`]).
     pub fn apply(&mut self, action: Action) -> Event {
         assert!(!self.has_ended(), "the match has ended");
         match self.run {
@@ -185,16 +185,16 @@ impl<'a> Simulation<'a> {
 
     fn drive(&mut self, turn: Turn, advance: i8) -> Event {
         self.heading = self.heading.turned(turn);
-        let asked = advance.unsigned_abs();
-        let allowed = asked.min(self.rules.longest_move);
+        let requested = advance.unsigned_abs();
+        let allowed = requested.min(self.rules.longest_move);
         let direction = if advance < 0 {
             self.heading.opposite()
         } else {
             self.heading
         };
-        let covered = allowed.min(self.maze.reach(self.cell, direction));
-        self.cell = along(self.cell, direction, covered);
-        let (bumped, clamped) = (covered < allowed, allowed < asked);
+        let driven = allowed.min(self.maze.reach(self.cell, direction));
+        self.cell = along(self.cell, direction, driven);
+        let (bumped, clamped) = (driven < allowed, allowed < requested);
         self.counts.bumps += u32::from(bumped);
         self.counts.clamps += u32::from(clamped);
         if self.maze.goal().contains(self.cell) {
@@ -206,7 +206,7 @@ impl<'a> Simulation<'a> {
         Event::Moved {
             cell: self.cell,
             heading: self.heading,
-            cells: covered,
+            cells: driven,
             bumped,
             clamped,
         }
@@ -232,7 +232,7 @@ impl<'a> Simulation<'a> {
     }
 }
 
-/// The cell that many cells away; the caller knows that all of them are open.
+/// The cell at that distance, which the caller knows to be in the maze.
 const fn along(from: Cell, heading: Heading, cells: u8) -> Cell {
     match heading {
         Heading::Up => Cell::new(from.x, from.y + cells),

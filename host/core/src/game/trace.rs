@@ -1,4 +1,4 @@
-//! [`Trace`]: everything that happened in a match, step by step.
+//! [`Trace`]: all steps of a match with their readings and events.
 
 use super::{Action, Event, Run, Sensors, Simulation};
 use crate::maze::{Cell, Heading};
@@ -12,18 +12,18 @@ pub struct Step {
     pub cell: Cell,
     /// The robot's heading before the step.
     pub heading: Heading,
-    /// The readings that the robot got.
+    /// The readings before the step.
     pub sensors: Sensors,
-    /// What the robot did.
+    /// The robot's action.
     pub action: Action,
-    /// What came of that.
+    /// The effect of the action.
     pub event: Event,
 }
 
-/// All steps of a match, in order: every reading and event.
+/// All steps of a match, in order, with every reading and event.
 ///
-/// A trace is never stored: maze, rules and
-/// [`Transcript`](crate::record::Transcript) give it again.
+/// It is not meant to be stored: [`record::trace`](crate::record::trace) computes it from the
+/// maze, the rules and the [`Transcript`](crate::record::Transcript).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Trace {
     steps: Vec<Step>,
@@ -35,11 +35,11 @@ impl Trace {
         &self.steps
     }
 
-    /// Carries out one step in a simulation and adds it to the trace.
+    /// Plays one step of a simulation and adds it to the trace.
     ///
     /// # Panics
     ///
-    /// When the match has ended.
+    /// If the match has ended.
     pub fn apply(&mut self, simulation: &mut Simulation<'_>, action: Action) -> Event {
         let (run, cell, heading) = (simulation.run(), simulation.cell(), simulation.heading());
         let sensors = simulation.sense();
@@ -55,9 +55,12 @@ impl Trace {
         event
     }
 
-    /// The bytes that identify the trace: 12 for each step, in order (run, x,
-    /// y, heading, the three readings, the action's kind, turn and advance, the
-    /// event's kind and the cells covered).
+    /// The bytes that identify the trace: 12 for each step.
+    ///
+    /// In order: the number of the run; x, y and heading before the step; the readings left,
+    /// front and right; the kind of the action (0 move, 1 reset), its turn and advance; the kind
+    /// of the event (moves: 1 if bumped plus 2 if clamped; 4 reset, 5 reset before goal, 6 reset
+    /// in speed run), and the cells driven. Parts that do not apply are 0.
     pub fn identity_bytes(&self) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(self.steps.len() * 12);
         for step in &self.steps {
@@ -92,5 +95,45 @@ impl Trace {
             ]);
         }
         bytes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::game::GameRules;
+    use crate::maze::{Maze, Turn, Walls};
+
+    /// Recorded matches are identified by these bytes.
+    #[test]
+    fn identity_bytes_never_change() {
+        let maze = Maze::contest(Walls::open(4)).expect("start and goal fit");
+        let rules = GameRules::default();
+        let mut simulation = Simulation::new(&maze, &rules);
+        let mut trace = Trace::default();
+        let drive = |turn, advance| Action::Move { turn, advance };
+        for action in [
+            drive(Turn::Left, -1),
+            Action::Reset,
+            drive(Turn::Right, 9),
+            drive(Turn::Right, 3),
+            drive(Turn::Straight, -1),
+            drive(Turn::Right, 1),
+            Action::Reset,
+            Action::Reset,
+        ] {
+            trace.apply(&mut simulation, action);
+        }
+        let expected = [
+            [1, 0, 0, 0, 0, 3, 3, 0, 0, 255, 0, 1],
+            [1, 1, 0, 3, 0, 1, 3, 1, 0, 0, 5, 0],
+            [1, 1, 0, 3, 0, 1, 3, 0, 2, 9, 2, 3],
+            [1, 1, 3, 0, 1, 0, 2, 0, 2, 3, 1, 2],
+            [1, 3, 3, 1, 0, 0, 3, 0, 1, 255, 0, 1],
+            [1, 2, 3, 1, 0, 1, 3, 0, 2, 1, 0, 1],
+            [1, 2, 2, 2, 1, 2, 2, 1, 0, 0, 4, 0],
+            [2, 0, 0, 0, 0, 3, 3, 1, 0, 0, 6, 0],
+        ];
+        assert_eq!(trace.identity_bytes(), expected.concat());
     }
 }

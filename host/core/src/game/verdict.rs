@@ -1,4 +1,4 @@
-//! [`Verdict`]: how a match ended, and [`Fault`]: how a robot's own doing ended it.
+//! [`Verdict`]: how a match ended. [`Fault`]: how a robot failed.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -8,16 +8,27 @@ use serde::{Deserialize, Serialize};
 use super::{Run, Score};
 use crate::maze::Cell;
 
-/// How a match ended. Closed: every match ends in exactly one of these.
+/// How a match ended. The set is closed: every match has exactly one verdict.
 ///
-/// A file that is not admitted plays no match, and a match that the host could not play
-/// has no verdict.
+/// Neither a rejected file nor an infrastructure error is a verdict.
+///
+/// Serialises with a tag: `{"kind": "finished", "score": ...}`, `{"kind": "budget-used-up",
+/// "goal_reached": true}` or `{"kind": "fault", "fault": ...}`.
+///
+/// ```
+/// use wasmouse_core::game::Verdict;
+/// let json = r#"{"kind":"budget-used-up","goal_reached":true}"#;
+/// let verdict: Verdict = serde_json::from_str(json)?;
+/// assert_eq!(verdict, Verdict::BudgetUsedUp { goal_reached: true });
+/// assert_eq!(verdict.title(), "budget used up, goal reached");
+/// # Ok::<(), serde_json::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Verdict {
     /// The speed run ended in the goal.
     Finished {
-        /// What the match is worth.
+        /// The score.
         score: Score,
     },
     /// The step budget is used up.
@@ -27,13 +38,13 @@ pub enum Verdict {
     },
     /// The robot failed.
     Fault {
-        /// How, and where in the match.
+        /// What happened, and where in the match.
         fault: Fault,
     },
 }
 
 impl Verdict {
-    /// The score; `None` unless the match was finished.
+    /// The score; `None` unless finished.
     pub const fn score(&self) -> Option<Score> {
         match self {
             Self::Finished { score } => Some(*score),
@@ -41,7 +52,7 @@ impl Verdict {
         }
     }
 
-    /// The fault; `None` unless there is one.
+    /// The fault, if there is one.
     pub const fn fault(&self) -> Option<&Fault> {
         match self {
             Self::Fault { fault } => Some(fault),
@@ -62,23 +73,23 @@ impl Verdict {
     }
 }
 
-/// What the robot was doing.
+/// The part of a match in which a robot failed. Serialises in kebab case, such as
+/// `"next-move"`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Phase {
-    /// Core start functions and data segments.
+    /// Instantiation: start functions and data segments.
     Instantiate,
     /// The call of `start`.
     Start,
     /// A call of `next-move`.
     NextMove,
-    /// Not known: the process that ran the robot crashed.
+    /// Unknown, because the process that ran the robot crashed.
     Unknown,
 }
 
 impl Phase {
-    /// All phases. The position of a phase is its code in transcripts, so the order is
-    /// never changed.
+    /// All phases. The index of a phase is its code in transcripts, so the order never changes.
     pub const ALL: [Self; 4] = [
         Self::Instantiate,
         Self::Start,
@@ -98,43 +109,42 @@ pub enum FuelLimit {
     Match,
 }
 
-/// The closed set of faults.
+/// The kinds of faults, a closed set. Serialises as its [name](FaultKind::name).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(into = "&'static str", try_from = "String")]
 pub enum FaultKind {
-    /// The robot computed for too long.
+    /// The robot exceeded a fuel limit.
     OutOfFuel(FuelLimit),
-    /// The robot asked for more memory than the match allows.
+    /// The robot exceeded the memory limit.
     OutOfMemory,
-    /// The robot asked for more table elements than the match allows.
+    /// The robot exceeded the limit on table elements.
     TableLimit,
-    /// The robot recursed too deeply.
+    /// The robot exceeded the limit on its call stack.
     StackOverflow,
     /// The robot reported an error from which it could not recover: a panic, an abort, an
     /// uncaught exception.
     Panic,
-    /// The robot executed `unreachable` without saying why.
+    /// The robot executed `unreachable` without an error message.
     Unreachable,
     /// The robot divided an integer by zero.
     DivisionByZero,
     /// An integer operation overflowed, or a float did not fit an integer.
     IntegerOverflow,
-    /// The robot read or wrote outside its memory.
+    /// The robot accessed memory or a table out of bounds.
     OutOfBounds,
-    /// An indirect call had no target or one of another type.
+    /// An indirect call had no target, or a target of another type.
     BadIndirectCall,
-    /// The robot broke the interface: a turn or action that does not exist, a pointer
-    /// outside memory or misaligned, text that is not UTF-8, a call into the host at a time
-    /// when none is allowed.
+    /// The robot violated the interface: an unknown turn or action, a pointer that is out of
+    /// bounds or misaligned, text that is not UTF-8, or a call into the host when none is
+    /// allowed.
     InvalidAction,
-    /// The robot crashed the process that it ran in, and did so again alone in a fresh one.
-    /// Only a flaw of wasmtime lets a robot do that.
+    /// The robot crashed its process, and did so again alone in a new process. Only a bug in
+    /// wasmtime makes that possible.
     Crash,
 }
 
 impl FaultKind {
-    /// All kinds. The position of a kind is its code in transcripts, so new kinds go to the
-    /// end.
+    /// All kinds. The index of a kind is its code in transcripts, so new kinds are appended.
     pub const ALL: [Self; 14] = [
         Self::OutOfFuel(FuelLimit::Start),
         Self::OutOfFuel(FuelLimit::Step),
@@ -152,7 +162,7 @@ impl FaultKind {
         Self::Crash,
     ];
 
-    /// A short name as in JSON: lowercase letters and hyphens.
+    /// The name in JSON, in lowercase letters and hyphens, such as `out-of-step-fuel`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::OutOfFuel(FuelLimit::Start) => "out-of-start-fuel",
@@ -186,27 +196,29 @@ impl TryFrom<String> for FaultKind {
         let mut kinds = Self::ALL.into_iter();
         kinds
             .find(|kind| kind.name() == name)
-            .ok_or_else(|| format!("unknown kind of fault `{}`", name.escape_debug()))
+            .ok_or_else(|| format!("unknown fault kind `{}`", name.escape_debug()))
     }
 }
 
-/// A robot's failure: what, where in the match, and a reason to read.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// A robot's failure: what happened, where in the match, and a message.
+///
+/// Serialises as an object with these fields.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fault {
     /// What happened.
     pub kind: FaultKind,
-    /// What the robot was doing.
+    /// The part of the match.
     pub phase: Phase,
     /// The run in progress.
     pub run: Run,
-    /// The number of the step in progress, counted from 1 over both runs; 0 before the
-    /// first.
+    /// The number of the step in progress, counted from 1 over both runs; 0 before the first
+    /// step.
     pub step: u32,
-    /// Where the robot was.
+    /// The robot's cell.
     pub cell: Cell,
-    /// What exactly, for the contestant. It may quote text and numbers that the robot
-    /// chose, so whoever shows it escapes it.
+    /// A message for the contestant. It may quote text of the robot, so escape it before
+    /// displaying it.
     pub detail: String,
 }
 
@@ -227,10 +239,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_kind_of_fault_has_a_name_of_its_own() {
+    fn every_fault_kind_has_its_own_name() {
         for kind in FaultKind::ALL {
             assert_eq!(FaultKind::try_from(kind.name().to_owned()), Ok(kind));
         }
-        FaultKind::try_from("nonsense\u{1b}".to_owned()).expect_err("no such kind");
+        let error = FaultKind::try_from("a\u{1b}".to_owned()).expect_err("no such kind");
+        assert_eq!(error, "unknown fault kind `a\\u{1b}`");
     }
 }

@@ -1,56 +1,40 @@
 //! The mazes that come with wasmouse.
 //!
-//! Embedded as text, so that they go through the same reader as any file. The
-//! files are in `host/core/mazes`.
+//! The files of `host/core/mazes`, embedded as text and parsed like any other file.
 
-/// A maze that needs no file.
+/// A maze that comes with wasmouse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BundledMaze {
-    /// What users call it: the name of its file without the extension.
+    /// The name of its file without the extension.
     pub name: &'static str,
     /// The contents of its file.
     pub text: &'static str,
 }
 
-/// The official maze, then generated ones of every size, then the experiment of
-/// Lobato's report (section 5.1): maze 01 with two more walls, up of (3, 4) and right
-/// of (6, 8). They close the way across the middle and leave two: a long one by the
-/// top left, which a search that counts walls not seen yet as open takes because it
-/// stays near the goal, and the best one by the right, which goes away from it first.
-/// The report's own maze is only in a picture.
+/// The first official maze, then generated mazes of every size, then the experiment of
+/// Lobato's report (section 5.1): maze 01 with two more walls, up of (3, 4) and right of
+/// (6, 8). They close the path through the middle and leave two. A search that treats unknown
+/// walls as open takes the long one through the top left, because it stays near the goal. The
+/// optimal path leads away from the goal first, through the right. (The report shows its own
+/// maze only as a picture.)
 const MAZES: &[BundledMaze] = &[
-    BundledMaze {
-        name: "test_maze_01",
-        text: include_str!("../../mazes/test_maze_01.txt"),
-    },
-    BundledMaze {
-        name: "braid-12",
-        text: include_str!("../../mazes/braid-12.txt"),
-    },
-    BundledMaze {
-        name: "division-14",
-        text: include_str!("../../mazes/division-14.txt"),
-    },
-    BundledMaze {
-        name: "tree-16",
-        text: include_str!("../../mazes/tree-16.txt"),
-    },
-    BundledMaze {
-        name: "division-18",
-        text: include_str!("../../mazes/division-18.txt"),
-    },
-    BundledMaze {
-        name: "braid-20",
-        text: include_str!("../../mazes/braid-20.txt"),
-    },
-    BundledMaze {
-        name: "lobato-detour",
-        text: include_str!("../../mazes/lobato-detour.txt"),
-    },
+    maze("test_maze_01", include_str!("../../mazes/test_maze_01.txt")),
+    maze("braid-12", include_str!("../../mazes/braid-12.txt")),
+    maze("division-14", include_str!("../../mazes/division-14.txt")),
+    maze("tree-16", include_str!("../../mazes/tree-16.txt")),
+    maze("division-18", include_str!("../../mazes/division-18.txt")),
+    maze("braid-20", include_str!("../../mazes/braid-20.txt")),
+    maze(
+        "lobato-detour",
+        include_str!("../../mazes/lobato-detour.txt"),
+    ),
 ];
 
-/// All bundled mazes, in the order in which they are listed and run. Each is a
-/// legal contest maze.
+const fn maze(name: &'static str, text: &'static str) -> BundledMaze {
+    BundledMaze { name, text }
+}
+
+/// All bundled mazes, in the order of listings and contests. Each is a legal contest maze.
 ///
 /// ```
 /// use wasmouse_core::maze::{bundled, format};
@@ -65,13 +49,13 @@ pub const fn bundled() -> &'static [BundledMaze] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::format::{self, Format};
-    use super::super::generate::GenSpec;
-    use super::super::{Cell, Heading, violations};
     use super::*;
+    use crate::maze::format::{self, Format};
+    use crate::maze::generate::GenSpec;
+    use crate::maze::{Cell, Heading, violations};
 
     #[test]
-    fn every_bundled_maze_is_legal_and_named_once() {
+    fn bundled_mazes_are_legal_and_have_unique_names() {
         for (place, bundled_maze) in bundled().iter().enumerate() {
             let parsed = format::parse(bundled_maze.text).expect("bundled mazes parse");
             assert_eq!(violations(&parsed.maze), [], "{}", bundled_maze.name);
@@ -80,9 +64,9 @@ mod tests {
         }
     }
 
-    /// The generated ones are no private copies: anyone can make them again.
+    /// Anyone can generate the generated mazes again.
     #[test]
-    fn generated_mazes_are_what_their_specifications_say() {
+    fn generated_mazes_match_their_specifications() {
         let specs = [
             "gen:braid:12:11",
             "gen:division:14:7",
@@ -105,9 +89,8 @@ mod tests {
         }
     }
 
-    /// The experiment's maze is maze 01 with the two walls that its comment names.
     #[test]
-    fn the_detour_is_maze_01_with_two_more_walls() {
+    fn the_detour_is_maze_01_with_the_two_walls_of_its_comment() {
         let [official, .., detour] = bundled() else {
             panic!("at least two mazes");
         };

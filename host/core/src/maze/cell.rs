@@ -1,16 +1,16 @@
-//! Places and directions: [`Cell`], [`Heading`], [`Turn`] and [`Area`].
+//! Positions and directions: [`Cell`], [`Heading`], [`Turn`] and [`Area`].
 //!
-//! Pure values without reference to a particular maze; whether a cell lies in
-//! a maze is a question for [`Walls`](super::Walls).
+//! They do not refer to a particular maze; [`Walls`](super::Walls) knows whether a cell is in
+//! the maze.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// A cell, counted from the bottom left corner of the maze.
 ///
-/// `x` grows to the right and `y` upward, so (0, 0) is the bottom left. Cells
-/// order by column, then by row, which is the order of the Udacity format.
-/// Which coordinates are valid depends on the maze: 0 to its dimension - 1.
+/// `x` grows to the right and `y` upward, so (0, 0) is the bottom left. Range of each in a
+/// maze: 0 to its size - 1. Cells are ordered by column, then by row, as in the Udacity
+/// format. Serialises as `{"x": 3, "y": 5}`.
 ///
 /// ```
 /// use wasmouse_core::maze::{Cell, Heading};
@@ -18,6 +18,7 @@ use std::fmt;
 /// assert_eq!(Cell::new(0, 0).step(Heading::Left), None);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Cell {
     /// Column, counted from the left, in cells.
     pub x: u8,
@@ -31,9 +32,9 @@ impl Cell {
         Self { x, y }
     }
 
-    /// The neighbouring cell in that direction, or `None` below row or column 0.
+    /// The neighbouring cell in that direction; `None` outside 0 to 255.
     ///
-    /// The upper bounds belong to the maze: see [`Walls::neighbor`](super::Walls::neighbor).
+    /// [`Walls::neighbor`](super::Walls::neighbor) knows the upper bounds of a maze.
     pub fn step(self, heading: Heading) -> Option<Self> {
         let (x, y) = (self.x, self.y);
         Some(match heading {
@@ -53,8 +54,10 @@ impl fmt::Display for Cell {
 
 /// A direction in the maze, independent of any robot.
 ///
-/// The numbers are the order of the bits in the Udacity format, clockwise from up.
+/// The numbers are the positions of the bits in the Udacity format, clockwise from up.
+/// Serialises as its [name](Heading::name).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[repr(u8)]
 pub enum Heading {
     /// Towards larger `y`; every run starts with this heading.
@@ -86,7 +89,7 @@ impl Heading {
         Self::ALL[(self as usize + quarters) % 4]
     }
 
-    /// The heading that looks back.
+    /// The heading after a half turn.
     pub const fn opposite(self) -> Self {
         Self::ALL[(self as usize + 2) % 4]
     }
@@ -114,7 +117,7 @@ impl fmt::Display for Heading {
 }
 
 /// A rotation on the spot, relative to the robot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Turn {
     /// A quarter turn counterclockwise (-90 degrees).
     Left,
@@ -126,7 +129,7 @@ pub enum Turn {
 
 /// A rectangle of cells, used for goals.
 ///
-/// Never empty: [`Area::new`] refuses sides of 0 cells.
+/// Never empty: [`Area::new`] rejects sides of 0 cells.
 ///
 /// ```
 /// use wasmouse_core::maze::{Area, Cell};
@@ -142,8 +145,8 @@ pub struct Area {
 }
 
 impl Area {
-    /// The rectangle of `width` x `height` cells whose bottom left cell is
-    /// `origin`; `None` when a side is 0 or a coordinate would pass 255.
+    /// The rectangle of `width` x `height` cells whose bottom left cell is `origin`; `None` if
+    /// a side is 0 or a coordinate would exceed 255.
     pub fn new(origin: Cell, width: u8, height: u8) -> Option<Self> {
         let last_x = origin.x.checked_add(width.checked_sub(1)?);
         let last_y = origin.y.checked_add(height.checked_sub(1)?);
@@ -154,25 +157,22 @@ impl Area {
         })
     }
 
-    /// The smallest rectangle that holds all of `cells`; `None` for no cells.
+    /// The smallest rectangle around all of `cells`; `None` for no cells.
     pub fn bounding(cells: &[Cell]) -> Option<Self> {
-        let first = cells.first()?;
-        let (mut low, mut high) = (*first, *first);
-        for cell in cells {
-            low = Cell::new(low.x.min(cell.x), low.y.min(cell.y));
-            high = Cell::new(high.x.max(cell.x), high.y.max(cell.y));
-        }
-        Self::new(
-            low,
-            (high.x - low.x).checked_add(1)?,
-            (high.y - low.y).checked_add(1)?,
-        )
+        let (xs, ys) = (
+            cells.iter().map(|cell| cell.x),
+            cells.iter().map(|cell| cell.y),
+        );
+        let low = Cell::new(xs.clone().min()?, ys.clone().min()?);
+        let width = (xs.max()? - low.x).checked_add(1)?;
+        let height = (ys.max()? - low.y).checked_add(1)?;
+        Self::new(low, width, height)
     }
 
-    /// The goal room of a contest maze: the 2 x 2 cells in the centre. In a
-    /// maze of odd dimension, the single centre cell.
+    /// The goal of a contest maze: the 2 x 2 room in the centre, or the single centre cell if
+    /// the size is odd.
     ///
-    /// `dimension` is in cells, at least 2.
+    /// `dimension` is the size of the maze, at least 2 cells.
     pub const fn center(dimension: u8) -> Self {
         let low = (dimension - 1) / 2;
         let side = if dimension.is_multiple_of(2) { 2 } else { 1 };
@@ -198,7 +198,7 @@ impl Area {
         self.height
     }
 
-    /// Whether `cell` lies in the rectangle.
+    /// Whether `cell` is in the rectangle.
     pub const fn contains(self, cell: Cell) -> bool {
         cell.x >= self.origin.x
             && cell.y >= self.origin.y
@@ -219,7 +219,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn four_left_turns_come_back() {
+    fn turns_and_opposites_undo_each_other() {
         for heading in Heading::ALL {
             let turned = (0..4).fold(heading, |h, _| h.turned(Turn::Left));
             assert_eq!(turned, heading);
@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn area_knows_its_cells() {
+    fn an_area_contains_its_cells() {
         let area = Area::new(Cell::new(3, 5), 3, 2).expect("sides are not 0");
         let cells: Vec<_> = area.cells().collect();
         assert_eq!(cells.len(), 6);

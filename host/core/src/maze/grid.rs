@@ -1,9 +1,9 @@
 //! The walls of a square grid ([`Walls`]) and a playable [`Maze`] made of them.
 //!
-//! A wall belongs to the two cells it separates. Both cells keep a bit for it,
-//! written together by [`Walls::set`], so that reading is one load and the two
-//! can never disagree. The perimeter is always closed: a file with a gap in it
-//! is refused by the formats, because a robot could leave through it.
+//! A wall belongs to the two cells that it separates. Both cells have a bit for it, and
+//! [`Walls::set`] writes both, so that reading is one load and the two never disagree. The
+//! perimeter is always closed: the formats reject a file with a gap in it, because a robot
+//! could leave the maze there.
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -11,10 +11,10 @@ use std::ops::RangeInclusive;
 use super::{Area, Cell, Heading};
 use crate::Digest;
 
-/// The sizes of maze that wasmouse handles, in cells along each side.
+/// The supported maze sizes, in cells along each side.
 ///
-/// Contest mazes are 12 to 16 (and up to 20 in the reports), half-size contest
-/// mazes 32; 64 leaves room without letting a file ask for gigabytes.
+/// Contest mazes have 12 to 16 cells (up to 20 in the reports), half-size contest mazes 32;
+/// 64 leaves some room and still bounds the memory that a file can claim.
 pub const DIMENSIONS: RangeInclusive<u8> = 2..=64;
 
 /// The walls of a square grid of cells with a closed perimeter.
@@ -34,11 +34,11 @@ pub struct Walls {
 }
 
 impl Walls {
-    /// A grid of `dimension` x `dimension` cells with every wall standing.
+    /// A grid of `dimension` x `dimension` cells with all walls.
     ///
     /// # Panics
     ///
-    /// When `dimension` is outside [`DIMENSIONS`].
+    /// If `dimension` is outside [`DIMENSIONS`].
     pub fn closed(dimension: u8) -> Self {
         assert!(
             DIMENSIONS.contains(&dimension),
@@ -50,20 +50,15 @@ impl Walls {
         }
     }
 
-    /// A grid with only the perimeter standing.
+    /// A grid with no walls but the perimeter.
     ///
     /// # Panics
     ///
-    /// When `dimension` is outside [`DIMENSIONS`].
+    /// If `dimension` is outside [`DIMENSIONS`].
     pub fn open(dimension: u8) -> Self {
         let mut walls = Self::closed(dimension);
-        let cells: Vec<Cell> = walls.cells().collect();
-        for cell in cells {
-            for heading in [Heading::Up, Heading::Right] {
-                if walls.neighbor(cell, heading).is_some() {
-                    walls.set(cell, heading, true);
-                }
-            }
+        for (cell, heading) in walls.edges() {
+            walls.set(cell, heading, true);
         }
         walls
     }
@@ -79,26 +74,37 @@ impl Walls {
         (0..n).flat_map(move |x| (0..n).map(move |y| Cell::new(x, y)))
     }
 
-    /// Whether the grid has that cell.
+    /// The edges between two cells, each once: the cell below or to the left of the edge, and
+    /// its side, up or right. In the order of [`Walls::cells`], up first.
+    pub(super) fn edges(&self) -> impl Iterator<Item = (Cell, Heading)> + use<> {
+        let n = self.dimension;
+        self.cells().flat_map(move |cell| {
+            let up = (cell.y + 1 < n).then_some((cell, Heading::Up));
+            let right = (cell.x + 1 < n).then_some((cell, Heading::Right));
+            [up, right].into_iter().flatten()
+        })
+    }
+
+    /// Whether `cell` is in the grid.
     pub const fn contains(&self, cell: Cell) -> bool {
         cell.x < self.dimension && cell.y < self.dimension
     }
 
-    /// The place of `cell` in the order of [`Walls::cells`]; below dimension squared.
+    /// The position of `cell` in the order of [`Walls::cells`]. Range: 0 to dimension² - 1.
     pub const fn index(&self, cell: Cell) -> usize {
         cell.x as usize * self.dimension as usize + cell.y as usize
     }
 
-    /// The cell on that side, walls or not; `None` outside the grid.
+    /// The cell on that side, whether there is a wall or not; `None` outside the grid.
     pub fn neighbor(&self, cell: Cell, heading: Heading) -> Option<Cell> {
         cell.step(heading).filter(|&cell| self.contains(cell))
     }
 
-    /// Whether nothing stands on that side of `cell`. The perimeter never is open.
+    /// Whether `cell` has no wall on that side. The perimeter is never open.
     ///
     /// # Panics
     ///
-    /// When `cell` is outside the grid.
+    /// If `cell` is outside the grid.
     pub fn is_open(&self, cell: Cell, heading: Heading) -> bool {
         self.value(cell) & heading.bit() != 0
     }
@@ -108,31 +114,26 @@ impl Walls {
     ///
     /// # Panics
     ///
-    /// When `cell` is outside the grid.
+    /// If `cell` is outside the grid.
     pub fn value(&self, cell: Cell) -> u8 {
         assert!(self.contains(cell), "{cell} is outside the maze");
         self.open[self.index(cell)]
     }
 
-    /// Opens or closes the wall on that side of `cell`, for both its cells.
+    /// Opens or closes that side of `cell`, and the same side of its neighbour.
     ///
     /// # Panics
     ///
-    /// When `cell` is outside the grid, or to open the perimeter.
+    /// If `cell` is outside the grid, or if the call would open the perimeter.
     pub fn set(&mut self, cell: Cell, heading: Heading, open: bool) {
         assert!(self.contains(cell), "{cell} is outside the maze");
         let Some(neighbor) = self.neighbor(cell, heading) else {
             assert!(!open, "the perimeter cannot be opened at {cell}, {heading}");
             return;
         };
-        let sides = [(cell, heading), (neighbor, heading.opposite())];
-        for (cell, heading) in sides {
-            let index = self.index(cell);
-            if open {
-                self.open[index] |= heading.bit();
-            } else {
-                self.open[index] &= !heading.bit();
-            }
+        for (cell, heading) in [(cell, heading), (neighbor, heading.opposite())] {
+            let value = &mut self.open[self.index(cell)];
+            *value = *value & !heading.bit() | u8::from(open) << heading as u8;
         }
     }
 }
@@ -145,18 +146,18 @@ impl fmt::Debug for Walls {
     }
 }
 
-/// Why walls, a start and a goal do not make a maze.
+/// Why walls, a start and a goal do not form a maze.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MazeError {
-    /// The start lies outside the grid.
+    /// The start is outside the grid.
     #[error("start {start} is outside the {dimension} x {dimension} maze")]
     StartOutside {
-        /// The start that was asked for.
+        /// The requested start.
         start: Cell,
         /// Cells along each side.
         dimension: u8,
     },
-    /// A goal cell lies outside the grid.
+    /// A goal cell is outside the grid.
     #[error("goal cell {cell} is outside the {dimension} x {dimension} maze")]
     GoalOutside {
         /// The first goal cell outside.
@@ -164,19 +165,19 @@ pub enum MazeError {
         /// Cells along each side.
         dimension: u8,
     },
-    /// The start lies in the goal, so there would be nothing to find.
-    #[error("start {start} lies in the goal")]
+    /// The start is in the goal, which leaves nothing to find.
+    #[error("start {start} is in the goal")]
     StartInGoal {
-        /// The start that was asked for.
+        /// The requested start.
         start: Cell,
     },
 }
 
-/// A maze that a match can be played in: walls, a start and a goal.
+/// A maze for a match: walls, a start and a goal.
 ///
-/// Immutable, because it also holds the distance to the nearest wall from every
-/// cell in every direction, which makes a sensor reading one load. Says nothing
-/// about contest legality: see [`violations`](super::violations).
+/// A maze is immutable: it also stores the distance to the nearest wall from every cell in
+/// every direction, so that a sensor reading is one load. It need not follow the contest
+/// rules: see [`violations`](super::violations).
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Maze {
     walls: Walls,
@@ -191,7 +192,7 @@ impl Maze {
     ///
     /// # Errors
     ///
-    /// When the start or a goal cell is outside the grid, or the start is in the goal.
+    /// If the start or a goal cell is outside the grid, or the start is in the goal.
     pub fn new(walls: Walls, start: Cell, goal: Area) -> Result<Self, MazeError> {
         let dimension = walls.dimension();
         if !walls.contains(start) {
@@ -219,7 +220,7 @@ impl Maze {
     ///
     /// # Errors
     ///
-    /// When the start lies in the goal: the grid is 2 x 2.
+    /// If the start is in the goal, that is, if the grid is 2 x 2.
     ///
     /// ```
     /// use wasmouse_core::maze::{Cell, Heading, Maze, Walls};
@@ -241,7 +242,7 @@ impl Maze {
         self.walls.dimension()
     }
 
-    /// Where both runs start, heading up.
+    /// The cell where both runs start, heading up.
     pub const fn start(&self) -> Cell {
         self.start
     }
@@ -251,19 +252,20 @@ impl Maze {
         self.goal
     }
 
-    /// The number of open cells between `cell` and the nearest wall in that
-    /// direction; 0 when the wall stands at this side of the cell.
+    /// The number of open cells between `cell` and the nearest wall in that direction; 0 if
+    /// the wall is on this side of the cell.
     ///
     /// # Panics
     ///
-    /// When `cell` is outside the maze.
+    /// If `cell` is outside the maze.
     pub fn reach(&self, cell: Cell, heading: Heading) -> u8 {
         assert!(self.walls.contains(cell), "{cell} is outside the maze");
         self.reach[self.walls.index(cell)][heading as usize]
     }
 
-    /// The bytes that identify this maze: dimension, start, goal and the value
-    /// of every cell. Equal mazes have equal bytes whatever file they came from.
+    /// The bytes that identify this maze, the same for equal mazes from different files: the
+    /// size, x and y of the start, x, y, width and height of the goal, then the
+    /// [value](Walls::value) of every cell.
     pub fn identity_bytes(&self) -> Vec<u8> {
         let goal = self.goal;
         let mut bytes = vec![
@@ -284,7 +286,7 @@ impl Maze {
         Digest::of(&self.identity_bytes())
     }
 
-    /// The maze that these bytes identify; `None` when they identify none.
+    /// The maze with these [identity bytes](Maze::identity_bytes); `None` if there is none.
     ///
     /// ```
     /// use wasmouse_core::maze::{Maze, Walls};
@@ -308,7 +310,7 @@ impl Maze {
                 }
             }
         }
-        // A side that is open for one of its cells alone is no maze's.
+        // Both cells of an edge have to agree about it.
         if *walls.open != *values {
             return None;
         }
@@ -321,10 +323,7 @@ fn open_cells(walls: &Walls, from: Cell, heading: Heading) -> u8 {
     let mut cell = from;
     let mut count = 0;
     while walls.is_open(cell, heading) {
-        let Some(next) = walls.neighbor(cell, heading) else {
-            break;
-        };
-        cell = next;
+        cell = cell.step(heading).expect("the perimeter is closed");
         count += 1;
     }
     count
@@ -335,7 +334,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn both_cells_agree_about_a_wall() {
+    fn both_cells_of_an_edge_agree() {
         let mut walls = Walls::open(5);
         walls.set(Cell::new(2, 2), Heading::Right, false);
         assert!(!walls.is_open(Cell::new(3, 2), Heading::Left));
@@ -350,7 +349,7 @@ mod tests {
     }
 
     #[test]
-    fn reach_counts_open_cells() {
+    fn reach_is_the_number_of_open_cells() {
         let mut walls = Walls::open(6);
         walls.set(Cell::new(0, 3), Heading::Up, false);
         let maze = Maze::contest(walls).expect("legal start and goal");
@@ -360,8 +359,8 @@ mod tests {
     }
 
     #[test]
-    fn a_start_in_the_goal_is_refused() {
+    fn a_start_in_the_goal_is_rejected() {
         let error = Maze::contest(Walls::open(2)).expect_err("2 x 2 is all goal");
-        assert_eq!(error.to_string(), "start (0, 0) lies in the goal");
+        assert_eq!(error.to_string(), "start (0, 0) is in the goal");
     }
 }

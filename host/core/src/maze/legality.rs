@@ -1,10 +1,9 @@
-//! Which rules of the contest a maze breaks, and in which cells.
+//! The contest rules for mazes: which of them a maze breaks, and in which cells.
 //!
-//! A [`Maze`] already is square and consistent with a closed perimeter; the
-//! formats refuse files that are not. What is left are the rules that real
-//! competition mazes break in good faith: they have several entrances to the
-//! goal, unreachable cells, a goal elsewhere. Such a maze can be played when the
-//! user says so, and this module tells what is special about it.
+//! A [`Maze`] is always square and consistent, with a closed perimeter. Mazes of real
+//! competitions may still break contest rules: they have several entrances to the goal,
+//! unreachable cells or a goal elsewhere. Matches in such mazes are possible if the user
+//! allows it.
 
 use std::fmt;
 
@@ -14,17 +13,16 @@ use super::{Area, Cell, Heading, Maze, Metric, distances_from};
 /// The smallest contest maze, in cells along each side.
 const CONTEST_DIMENSION_MIN: u8 = 12;
 
-/// The largest contest maze, in cells along each side. The specification of the
-/// contest stops at 16; its reports go on to 20.
+/// The largest contest maze, in cells along each side. The specification of the contest
+/// allows 16; its reports go up to 20.
 const CONTEST_DIMENSION_MAX: u8 = 20;
 
-/// The only start of contest mazes.
+/// The start of contest mazes.
 const CONTEST_START: Cell = Cell::new(0, 0);
 
-/// The open edge by which a robot gets into the goal.
+/// An open edge between the goal and a cell outside.
 ///
-/// A cell in the corner of the goal may have two entrances, so the outer cell
-/// is part of it.
+/// Both cells identify it, because a goal cell in a corner may have two entrances.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Entrance {
     /// The cell outside the goal.
@@ -56,14 +54,14 @@ impl fmt::Display for InnerWall {
 
 /// A contest rule that a maze breaks, with the cells that break it.
 ///
-/// The message names the rule first, then what the maze has. It names eight
-/// cells at most and counts the others.
+/// The message states the rule, then what the maze has. It names at most eight cells and
+/// counts the others.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Violation {
-    /// The dimension is odd or outside 12..=20.
+    /// The size is odd or outside 12..=20.
     #[error(
-        "the dimension is an even number from {CONTEST_DIMENSION_MIN} to \
+        "the size must be an even number from {CONTEST_DIMENSION_MIN} to \
          {CONTEST_DIMENSION_MAX}: it is {dimension}"
     )]
     Dimension {
@@ -71,54 +69,54 @@ pub enum Violation {
         dimension: u8,
     },
     /// The start is not (0, 0).
-    #[error("the start is {CONTEST_START}: it is {start}")]
+    #[error("the start must be {CONTEST_START}: it is {start}")]
     Start {
         /// The start of the maze.
         start: Cell,
     },
-    /// The start has other openings than the one at its top.
-    #[error("the start is open at the top only: {start} is open {}", directions(.open))]
+    /// The start is closed at the top or open elsewhere.
+    #[error("the start must be open at the top only: {start} is {}", open_sides_text(.open))]
     StartWalls {
         /// The start of the maze.
         start: Cell,
-        /// Its open sides, clockwise from up; perhaps none.
+        /// Its open sides, clockwise from up; may be empty.
         open: Vec<Heading>,
     },
     /// The goal is not the room in the centre.
-    #[error("the goal is the 2 x 2 room in the centre: it is {} x {} cells at {}",
+    #[error("the goal must be the 2 x 2 room in the centre: it is {} x {} cells at {}",
         .goal.width(), .goal.height(), .goal.origin())]
     Goal {
         /// The goal of the maze.
         goal: Area,
     },
-    /// Walls stand between goal cells.
-    #[error("no walls stand in the goal: {}", Listed(.0))]
+    /// There are walls between goal cells.
+    #[error("the goal must not have inner walls: {}", Listed(.0))]
     GoalWalls(
         /// All of them, by cell.
         Vec<InnerWall>,
     ),
     /// The goal has no entrance, or several.
-    #[error("the goal has exactly one entrance: {}", entrances(.0))]
+    #[error("the goal must have exactly one entrance: {}", entrances(.0))]
     Entrances(
         /// All of them, by goal cell.
         Vec<Entrance>,
     ),
     /// Goal cells cannot be reached from the start.
-    #[error("every goal cell can be reached: {} cannot", Listed(.0))]
+    #[error("every goal cell must be reachable from the start: {} cannot be reached", Listed(.0))]
     GoalUnreachable(
         /// All of them, in the order of the cells.
         Vec<Cell>,
     ),
     /// Other cells cannot be reached from the start.
-    #[error("every cell can be reached: {} cannot", cells(.0))]
+    #[error("every cell must be reachable from the start: {} cannot be reached", cells(.0))]
     Unreachable(
-        /// All of them that are no goal cells, in the order of the cells.
+        /// All of them outside the goal, in the order of the cells.
         Vec<Cell>,
     ),
 }
 
 impl Violation {
-    /// The rule's name in JSON; never changed once published.
+    /// The name of the rule in JSON. It never changes once published.
     pub const fn rule(&self) -> &'static str {
         match self {
             Self::Dimension { .. } => "dimension",
@@ -132,10 +130,9 @@ impl Violation {
         }
     }
 
-    /// All cells that break the rule, uncapped; none when it is about the whole maze.
+    /// All cells that break the rule, without a limit; empty if it is about the whole maze.
     ///
-    /// For an entrance that is the goal cell and then the cell outside, for a
-    /// wall the two cells that it separates.
+    /// For an entrance: the goal cell, then the cell outside. For a wall: both of its cells.
     pub fn cells(&self) -> Vec<Cell> {
         match self {
             Self::Dimension { .. } => Vec::new(),
@@ -154,10 +151,10 @@ impl Violation {
     }
 }
 
-fn directions(open: &[Heading]) -> String {
+fn open_sides_text(open: &[Heading]) -> String {
     match open {
-        [] => "nowhere".to_owned(),
-        _ => Listed(open).to_string(),
+        [] => "closed on all sides".to_owned(),
+        _ => format!("open {}", Listed(open)),
     }
 }
 
@@ -175,16 +172,16 @@ fn cells(cells: &[Cell]) -> String {
     }
 }
 
-/// Every contest rule that the maze breaks, in the order of [`Violation`]; empty
-/// for a legal contest maze.
+/// All contest rules that the maze breaks, in the order of [`Violation`]; empty for a legal
+/// contest maze.
 ///
 /// ```
 /// use wasmouse_core::maze::{Maze, Walls, violations};
 /// let maze = Maze::contest(Walls::open(10)).expect("start and goal fit");
 /// let broken: Vec<String> = violations(&maze).iter().map(ToString::to_string).collect();
-/// assert_eq!(broken[0], "the dimension is an even number from 12 to 20: it is 10");
-/// assert_eq!(broken[1], "the start is open at the top only: (0, 0) is open up, right");
-/// assert!(broken[2].starts_with("the goal has exactly one entrance: it has 8: (4, 3) to (4, 4)"));
+/// assert_eq!(broken[0], "the size must be an even number from 12 to 20: it is 10");
+/// assert_eq!(broken[1], "the start must be open at the top only: (0, 0) is open up, right");
+/// assert!(broken[2].starts_with("the goal must have exactly one entrance: it has 8: (4, 3) to (4, 4)"));
 /// ```
 pub fn violations(maze: &Maze) -> Vec<Violation> {
     let mut broken = Vec::new();
@@ -225,7 +222,7 @@ pub fn violations(maze: &Maze) -> Vec<Violation> {
     broken
 }
 
-/// Whether the maze keeps every rule of the contest.
+/// Whether the maze follows all contest rules.
 pub fn is_contest_legal(maze: &Maze) -> bool {
     violations(maze).is_empty()
 }
@@ -260,30 +257,28 @@ fn open_sides(maze: &Maze, cell: Cell) -> Vec<Heading> {
 }
 
 fn goal_walls(maze: &Maze) -> Vec<InnerWall> {
-    let goal = maze.goal();
-    let mut found = Vec::new();
-    for cell in goal.cells() {
-        for heading in [Heading::Up, Heading::Right] {
-            let neighbor = maze.walls().neighbor(cell, heading);
-            if let Some(neighbor) = neighbor.filter(|&cell| goal.contains(cell))
-                && !maze.walls().is_open(cell, heading)
-            {
-                found.push(InnerWall { cell, neighbor });
-            }
-        }
-    }
-    found
+    let (walls, goal) = (maze.walls(), maze.goal());
+    let closed = walls
+        .edges()
+        .filter(|&(cell, side)| !walls.is_open(cell, side));
+    let between_cells = closed.filter_map(|(cell, side)| {
+        let neighbor = walls.neighbor(cell, side)?;
+        Some(InnerWall { cell, neighbor })
+    });
+    between_cells
+        .filter(|wall| goal.contains(wall.cell) && goal.contains(wall.neighbor))
+        .collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::Walls;
-    use super::super::format::parse;
     use super::*;
+    use crate::maze::Walls;
+    use crate::maze::format::parse;
 
     const LEGAL: &str = include_str!("../../mazes/test_maze_01.txt");
 
-    /// A legal maze with some changes to its walls, and another start or goal.
+    /// A legal maze with changed walls, start and goal.
     fn changed(changes: &[(u8, u8, Heading, bool)], start: Cell, goal: Area) -> Maze {
         let mut walls: Walls = parse(LEGAL).expect("a maze").maze.walls().clone();
         for &(x, y, heading, open) in changes {
@@ -292,28 +287,31 @@ mod tests {
         Maze::new(walls, start, goal).expect("start and goal fit")
     }
 
+    #[track_caller]
     fn check(changes: &[(u8, u8, Heading, bool)], expected: &[&str]) {
-        let maze = changed(changes, Cell::new(0, 0), Area::center(12));
+        let maze = changed(changes, CONTEST_START, Area::center(12));
         let found: Vec<String> = violations(&maze).iter().map(ToString::to_string).collect();
         assert_eq!(found, expected, "{changes:?}");
         assert_eq!(is_contest_legal(&maze), expected.is_empty());
     }
 
     #[test]
-    fn every_rule_about_walls_names_its_cells() {
+    fn rules_about_walls_name_their_cells() {
         use Heading::{Down, Left, Right, Up};
         check(&[], &[]);
         check(
             &[(0, 0, Right, true)],
-            &["the start is open at the top only: (0, 0) is open up, right"],
+            &["the start must be open at the top only: (0, 0) is open up, right"],
         );
         check(
             &[(5, 5, Right, false)],
-            &["no walls stand in the goal: (5, 5) | (6, 5)"],
+            &["the goal must not have inner walls: (5, 5) | (6, 5)"],
         );
         check(
             &[(5, 5, Left, true)],
-            &["the goal has exactly one entrance: it has 2: (4, 5) to (5, 5), (7, 6) to (6, 6)"],
+            &[
+                "the goal must have exactly one entrance: it has 2: (4, 5) to (5, 5), (7, 6) to (6, 6)",
+            ],
         );
         check(
             &[
@@ -321,50 +319,52 @@ mod tests {
                 (11, 0, Left, false),
                 (11, 1, Down, false),
             ],
-            &["every cell can be reached: (11, 0) cannot"],
+            &["every cell must be reachable from the start: (11, 0) cannot be reached"],
         );
         check(
             &[(6, 6, Right, false)],
             &[
-                "the goal has exactly one entrance: it has none",
-                "every goal cell can be reached: (5, 5), (5, 6), (6, 5), (6, 6) cannot",
+                "the goal must have exactly one entrance: it has none",
+                "every goal cell must be reachable from the start: (5, 5), (5, 6), (6, 5), (6, 6) \
+                 cannot be reached",
             ],
         );
     }
 
     #[test]
-    fn a_walled_in_start_reaches_nothing() {
-        let changes = [(0, 0, Heading::Up, false)];
-        let maze = changed(&changes, Cell::new(0, 0), Area::center(12));
-        let found: Vec<String> = violations(&maze).iter().map(ToString::to_string).collect();
-        assert_eq!(
-            found,
-            [
-                "the start is open at the top only: (0, 0) is open nowhere",
-                "every goal cell can be reached: (5, 5), (5, 6), (6, 5), (6, 6) cannot",
-                "every cell can be reached: 139 cells ((0, 1), (0, 2), (0, 3), (0, 4), \
-                 (0, 5), (0, 6), (0, 7), (0, 8) and 131 more) cannot",
-            ]
+    fn nothing_is_reachable_from_a_closed_start() {
+        check(
+            &[(0, 0, Heading::Up, false)],
+            &[
+                "the start must be open at the top only: (0, 0) is closed on all sides",
+                "every goal cell must be reachable from the start: (5, 5), (5, 6), (6, 5), (6, 6) \
+                 cannot be reached",
+                "every cell must be reachable from the start: 139 cells ((0, 1), (0, 2), (0, 3), \
+                 (0, 4), (0, 5), (0, 6), (0, 7), (0, 8) and 131 more) cannot be reached",
+            ],
         );
     }
 
     #[test]
-    fn another_start_and_goal_are_named() {
+    fn another_start_and_goal_break_rules() {
         let goal = Area::new(Cell::new(8, 3), 3, 3).expect("not empty");
         let maze = changed(&[], Cell::new(0, 1), goal);
         let rules: Vec<&str> = violations(&maze).iter().map(Violation::rule).collect();
         assert_eq!(rules[..3], ["start", "start-walls", "goal"]);
         let broken = violations(&maze);
-        assert_eq!(broken[0].to_string(), "the start is (0, 0): it is (0, 1)");
+        assert_eq!(
+            broken[0].to_string(),
+            "the start must be (0, 0): it is (0, 1)"
+        );
         assert_eq!(
             broken[2].to_string(),
-            "the goal is the 2 x 2 room in the centre: it is 3 x 3 cells at (8, 3)"
+            "the goal must be the 2 x 2 room in the centre: it is 3 x 3 cells at (8, 3)"
         );
         assert_eq!(broken[2].cells().len(), 9);
     }
 
     #[test]
-    fn dimensions_are_even_and_from_12_to_20() {
+    fn sizes_are_even_and_from_12_to_20() {
         for dimension in 3..=64 {
             let maze = Maze::contest(Walls::open(dimension)).expect("start and goal fit");
             let broken = violations(&maze).contains(&Violation::Dimension { dimension });

@@ -1,14 +1,13 @@
-//! [`Listed`]: some items of a long list in a message, and how many are left out.
+//! [`Listed`]: the first items of a list, and how many follow.
 //!
-//! For error messages and violations, which name cells and must stay readable
-//! when a file has hundreds of them.
+//! Messages name cells, and stay readable if a file has hundreds of invalid ones.
 
 use std::fmt;
 
-/// How many items a message names before it only counts.
-pub(super) const NAMED_MAX: usize = 8;
+/// The most items that a message names.
+const NAMED_MAX: usize = 8;
 
-/// Prints the first [`NAMED_MAX`] items and counts the rest: `a, b and 3 more`.
+/// Displays the first [`NAMED_MAX`] items and counts the rest: `a, b and 3 more`.
 pub(super) struct Listed<'a, T>(pub &'a [T]);
 
 impl<T: fmt::Display> fmt::Display for Listed<'_, T> {
@@ -30,7 +29,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn long_lists_are_counted() {
+    fn long_lists_are_shortened() {
         let items: Vec<usize> = (1..=10).collect();
         assert_eq!(Listed(&items[..2]).to_string(), "1, 2");
         assert_eq!(Listed(&items[..8]).to_string(), "1, 2, 3, 4, 5, 6, 7, 8");

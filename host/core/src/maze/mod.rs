@@ -1,7 +1,6 @@
-//! Mazes: cells and walls, file formats, contest legality, solving, generating.
+//! Mazes: cells and walls, file formats, contest rules for mazes, solver, generators.
 //!
-//! The first stage of the pipeline `maze -> sim -> robot -> contest -> report`.
-//! Pure: reads no files, prints nothing, knows no robots. Text in, values out.
+//! Text in, values out: no files and no robots.
 
 mod bundled;
 mod cell;
@@ -12,6 +11,8 @@ mod legality;
 mod listed;
 mod solver;
 mod survey;
+#[cfg(test)]
+pub(crate) mod testing;
 
 pub use bundled::{BundledMaze, bundled};
 pub use cell::{Area, Cell, Heading, Turn};

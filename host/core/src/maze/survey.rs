@@ -1,34 +1,33 @@
 //! [`Survey`]: counts over many mazes.
 //!
-//! What a collection of maze files is like, before anyone runs a contest on it.
-//! Pure: whoever reads the files tells the survey about each of them.
+//! A summary of a collection of maze files. The caller reads the files.
 
 use std::collections::BTreeMap;
 
 use super::legality::{goal_entrances, is_contest_legal, unreachable_cells};
 use super::{Cell, Maze};
 
-/// Counts over the maze files seen so far. Unit of every number: files.
+/// Counts over the maze files that were added. All numbers are numbers of files.
 ///
 /// ```
 /// use wasmouse_core::maze::{Maze, Survey, Walls};
 /// let mut survey = Survey::default();
 /// survey.add(&Maze::contest(Walls::open(12)).expect("start and goal fit"));
-/// survey.add_refused();
+/// survey.add_rejected();
 /// assert_eq!((survey.files, survey.parsed, survey.solvable), (2, 1, 1));
 /// assert_eq!(survey.several_entrances(), 1);
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Survey {
-    /// All files, those that are no mazes included.
+    /// All files, including those that are not mazes.
     pub files: usize,
-    /// Files that hold a maze; the counts below are about these.
+    /// Files that are mazes; the counts below are about these.
     pub parsed: usize,
-    /// Mazes that keep all contest rules.
+    /// Mazes that follow all contest rules.
     pub contest_legal: usize,
-    /// Mazes in which a goal cell can be reached from the start.
+    /// Mazes with a goal cell that is reachable from the start.
     pub solvable: usize,
-    /// Mazes with cells, in the goal or elsewhere, that cannot be reached.
+    /// Mazes with unreachable cells, in the goal or elsewhere.
     pub with_unreachable: usize,
     /// Mazes by the number of open edges into their goal.
     pub by_entrances: BTreeMap<usize, usize>,
@@ -50,8 +49,8 @@ impl Survey {
             .or_default() += 1;
     }
 
-    /// Counts a file that holds no maze.
-    pub fn add_refused(&mut self) {
+    /// Counts a file that is not a maze.
+    pub fn add_rejected(&mut self) {
         self.files += 1;
     }
 
@@ -67,7 +66,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_closed_goal_cell_does_not_make_a_maze_unsolvable() {
+    fn a_maze_with_one_closed_goal_cell_is_solvable() {
         let mut walls = Walls::open(12);
         for heading in Heading::ALL {
             walls.set(Cell::new(5, 5), heading, false);
@@ -79,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn a_closed_goal_does() {
+    fn a_maze_with_a_closed_goal_is_not_solvable() {
         let mut survey = Survey::default();
         survey.add(&Maze::contest(Walls::closed(12)).expect("start and goal fit"));
         assert_eq!((survey.parsed, survey.solvable), (1, 0));

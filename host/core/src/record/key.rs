@@ -6,14 +6,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Digest, DigestBuilder};
 
-/// The name of an engine: everything besides the other parts of a [`MatchKey`] that can
-/// change fuel or a verdict, such as the version of wasmtime and its configuration.
+/// The name of an engine: everything else besides a [`MatchKey`] that can change fuel or a
+/// verdict, such as the version of wasmtime and its configuration. Serialises as a string.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct EngineId(String);
 
 impl EngineId {
-    /// The engine of that name.
+    /// The engine with that name.
     pub fn new(name: impl Into<String>) -> Self {
         Self(name.into())
     }
@@ -23,8 +23,9 @@ impl EngineId {
         &self.0
     }
 
-    /// The identity of the engine. Canonical encoding `wasmouse.engine.1`: the name as
-    /// bytes.
+    /// The identity of the engine.
+    ///
+    /// Canonical encoding `wasmouse.engine.1` ([`DigestBuilder`]): the name as bytes.
     pub fn digest(&self) -> Digest {
         DigestBuilder::new("wasmouse.engine.1")
             .bytes(self.0.as_bytes())
@@ -38,10 +39,34 @@ impl fmt::Display for EngineId {
     }
 }
 
-/// Everything that decides a match, each part by its digest.
+/// Everything that decides a match.
 ///
-/// Two matches with the same key have the same record and transcript. Serialises with `id`,
-/// the digest of the key, which has to fit the rest when it is read.
+/// Two matches with the same key have the same record and transcript. Stores, caches and queues
+/// use the [digest](MatchKey::digest) of the key as address.
+///
+/// Serialises as an object with these fields after `id`, the digest of the key; deserialising
+/// fails if the id does not match the other fields.
+///
+/// ```
+/// use wasmouse_core::Digest;
+/// use wasmouse_core::game::Ruleset;
+/// use wasmouse_core::maze::{Maze, Walls};
+/// use wasmouse_core::record::{EngineId, MatchKey};
+///
+/// let maze = Maze::contest(Walls::open(12)).expect("start and goal fit");
+/// let key = MatchKey {
+///     engine: EngineId::new("example").digest(),
+///     rules: Ruleset::default().digest(),
+///     robot: Digest::of(b"the bytes of a component"),
+///     variant: 0,
+///     maze: maze.digest(),
+///     seed: 1,
+/// };
+/// let json = serde_json::to_value(key)?;
+/// assert_eq!(json["id"], key.digest().to_string());
+/// assert_eq!(serde_json::from_value::<MatchKey>(json)?, key);
+/// # Ok::<(), serde_json::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(into = "Form", try_from = "Form")]
 pub struct MatchKey {
@@ -51,11 +76,11 @@ pub struct MatchKey {
     pub rules: Digest,
     /// The robot: the digest of the submitted file.
     pub robot: Digest,
-    /// The number that chooses the robot's mode.
+    /// The variant of the robot: the number that chooses its mode.
     pub variant: u32,
     /// The maze: [`Maze::digest`](crate::maze::Maze::digest).
     pub maze: Digest,
-    /// The robot's only source of randomness.
+    /// The seed: the robot's only source of randomness.
     pub seed: u64,
 }
 
@@ -122,11 +147,10 @@ impl TryFrom<Form> for MatchKey {
             maze: form.maze,
             seed: form.seed,
         };
-        if key.digest() == form.id {
-            Ok(key)
-        } else {
-            Err("the id of a match is not the digest of its key")
-        }
+        let is_consistent = key.digest() == form.id;
+        is_consistent
+            .then_some(key)
+            .ok_or("the id of a match does not match its key")
     }
 }
 
@@ -160,9 +184,9 @@ mod tests {
         assert_eq!(addresses.len(), all.len());
     }
 
-    /// Addresses are stored by other programs: they must never change.
+    /// Other programs store addresses, so they must never change.
     #[test]
-    fn the_address_of_a_key_is_fixed() {
+    fn the_address_of_a_key_never_changes() {
         assert_eq!(
             key().digest().to_string(),
             "53100879a960548ebd946cb0b0e61c4571b4ba794cef05c1f051b3b22c93ce1f"
@@ -170,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn a_key_is_read_only_with_its_own_id() {
+    fn a_key_deserialises_only_with_its_own_id() {
         let json = serde_json::to_string(&key()).expect("it serialises");
         assert_eq!(serde_json::from_str::<MatchKey>(&json).ok(), Some(key()));
         let changed = json.replace("\"seed\":3", "\"seed\":4");

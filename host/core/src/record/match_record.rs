@@ -1,4 +1,4 @@
-//! [`MatchRecord`]: what came of a match.
+//! [`MatchRecord`]: the outcome of a match.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,46 +7,72 @@ use crate::Digest;
 use crate::game::{Counts, Steps, Verdict};
 use crate::journal::JournalCounts;
 
-/// Fuel that a match used, in units of the engine. The fuel of instantiation is limited but
-/// not recorded: it depends on the operating system.
+/// The fuel that a match used, in units of the engine. Serialises as an object with these
+/// fields.
+///
+/// The fuel of instantiation is limited but not recorded, because it depends on the operating
+/// system.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FuelUse {
-    /// In `start`.
+    /// Fuel of `start`.
     pub start: u64,
-    /// In all steps together.
+    /// Fuel of all steps together.
     pub steps: u64,
-    /// In the most expensive step.
+    /// Fuel of the most expensive step.
     pub step_max: u64,
 }
 
-/// What came of a match: one type from the runner to the store, the JSON, `verify` and the
-/// reports.
+/// The outcome of a match, from the runner to stores, reports and verification.
 ///
-/// The serialised form is described by the JSON Schema in `host/schema`; its version is that
-/// of the results document. Steps are counted in steps, fuel in units of the engine, scores
-/// in thousandths of a step.
+/// Serialises as an object with these fields, and rejects unknown ones. It has no version of
+/// its own: a document or store that contains records has one.
+///
+/// ```
+/// use wasmouse_core::Digest;
+/// use wasmouse_core::game::{Action, GameRules};
+/// use wasmouse_core::journal::JournalCounts;
+/// use wasmouse_core::maze::{Maze, Walls};
+/// use wasmouse_core::record::{FuelUse, MatchKey, MatchRecord, Transcript, replay};
+///
+/// let maze = Maze::contest(Walls::open(12)).expect("start and goal fit");
+/// let rules = GameRules { budget: 1, ..GameRules::default() };
+/// let mut transcript = Transcript::default();
+/// transcript.push(Action::Reset);
+/// let result = replay(&maze, &rules, &transcript).expect("a whole match");
+/// let part = Digest::of(b"");
+/// let key = MatchKey { engine: part, rules: part, robot: part, variant: 0, maze: part, seed: 1 };
+/// let (fuel, journal) = (FuelUse::default(), JournalCounts::default());
+/// let record = MatchRecord::new(key, result, fuel, journal, &transcript);
+///
+/// let json = serde_json::to_value(&record)?;
+/// assert_eq!(json["verdict"]["kind"], "budget-used-up");
+/// assert_eq!(json["counts"]["resets_before_goal"], 1);
+/// assert_eq!(json["transcript"], transcript.digest().to_string());
+/// assert_eq!(serde_json::from_value::<MatchRecord>(json)?, record);
+/// # Ok::<(), serde_json::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MatchRecord {
-    /// Which match.
+    /// The identity of the match.
     pub key: MatchKey,
-    /// How it ended.
+    /// How the match ended.
     pub verdict: Verdict,
     /// Steps of both runs.
     pub steps: Steps,
-    /// Bumps, clamps, ignored resets.
+    /// Bumps, clamps and ignored resets.
     pub counts: Counts,
-    /// Fuel.
+    /// The fuel that the robot used.
     pub fuel: FuelUse,
-    /// How much the robot wrote to its journal.
+    /// The size of the robot's journal.
     pub journal: JournalCounts,
-    /// The digest of the transcript: the robot's actions and how the match ended.
+    /// The digest of the transcript ([`Transcript::digest`]).
     pub transcript: Digest,
 }
 
 impl MatchRecord {
-    /// The record of a match.
+    /// Combines the result of a match with what the simulation does not know.
     pub fn new(
         key: MatchKey,
         result: GameResult,

@@ -1,14 +1,16 @@
-//! What identifies a match and what is kept of it.
+//! The identity of a match, and what is stored of it.
 //!
-//! A match is a pure function of its [`MatchKey`]. The digest of the key is its address in
-//! results, stores, caches, queues and replays. What came of it is a [`MatchRecord`]; the
-//! robot's actions are a [`Transcript`], from which [`replay`] gives every reading and event
-//! again, without the robot.
+//! A match is a pure function of its [`MatchKey`], whose digest is its address in stores, caches
+//! and queues. The outcome of a match is a [`MatchRecord`], the robot's actions are a
+//! [`Transcript`]. From the transcript, [`replay`] computes the outcome and [`trace()`] every
+//! reading and event, without the robot.
 
 mod key;
 mod match_record;
 mod replay;
 mod spec;
+#[cfg(test)]
+mod tests;
 mod transcript;
 
 pub use key::{EngineId, MatchKey};

@@ -1,26 +1,27 @@
-//! [`replay`]: from a transcript to what it means by the rules.
+//! [`replay`]: from a transcript to its outcome by the rules.
 
 use super::{Ending, Transcript};
 use crate::game::{Action, Counts, GameRules, Phase, Simulation, Steps, Trace, Verdict};
 use crate::maze::Maze;
 
-/// What a match came to by the rules of the game.
+/// The outcome of a match by the rules of the game: the parts of a
+/// [`MatchRecord`](super::MatchRecord) that follow from its transcript.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GameResult {
-    /// How it ended.
+    /// How the match ended.
     pub verdict: Verdict,
     /// Steps of both runs.
     pub steps: Steps,
-    /// Bumps, clamps, ignored resets.
+    /// Bumps, clamps and ignored resets.
     pub counts: Counts,
 }
 
 impl GameResult {
-    /// The result of a match that has come to its end.
+    /// The outcome of a match that has ended.
     ///
     /// # Errors
     ///
-    /// When the simulation and the ending contradict each other.
+    /// If the simulation and the ending contradict each other.
     pub fn new(simulation: &Simulation<'_>, ending: &Ending) -> Result<Self, ReplayError> {
         let verdict = match (ending, simulation.verdict()) {
             (Ending::Rules, Some(verdict)) => verdict,
@@ -50,28 +51,43 @@ impl GameResult {
     }
 }
 
-/// Why a transcript cannot be of a match in that maze by those rules.
+/// Why a transcript cannot belong to a match in that maze with those rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ReplayError {
     /// There are actions after the end of the match.
-    #[error("there are actions after the end of the match")]
+    #[error("the transcript has actions after the end of the match")]
     ActionAfterEnd,
-    /// It stops although the match goes on.
-    #[error("it stops in the middle of the match")]
+    /// There are too few actions to end the match.
+    #[error("the transcript ends before the match does")]
     Unfinished,
-    /// It ends with a fault although the rules had ended the match.
-    #[error("there is a fault after the end of the match")]
+    /// There is a fault, but the match has ended by the rules.
+    #[error("the transcript has a fault after the end of the match")]
     FaultAfterEnd,
-    /// It ends with a fault from before the first step, and has steps.
-    #[error("there are steps before a fault of the start")]
+    /// There is a fault from before the first step, but also actions.
+    #[error("the transcript has actions before a fault of the start")]
     FaultBeforeSteps,
 }
 
-/// Replays a transcript without the robot.
+/// Computes the outcome of a match from its transcript.
 ///
 /// # Errors
 ///
-/// When it cannot be of a match in that maze by those rules.
+/// If the transcript cannot belong to a match in that maze with those rules.
+///
+/// ```
+/// use wasmouse_core::game::{Action, GameRules};
+/// use wasmouse_core::maze::{Maze, Walls};
+/// use wasmouse_core::record::{ReplayError, Transcript, replay};
+///
+/// let maze = Maze::contest(Walls::open(12)).expect("start and goal fit");
+/// let rules = GameRules { budget: 2, ..GameRules::default() };
+/// let mut transcript = Transcript::default();
+/// transcript.push(Action::Reset);
+/// assert_eq!(replay(&maze, &rules, &transcript), Err(ReplayError::Unfinished));
+/// transcript.push(Action::Reset);
+/// let result = replay(&maze, &rules, &transcript).expect("a whole match");
+/// assert_eq!(result.counts.resets_before_goal, 2);
+/// ```
 pub fn replay(
     maze: &Maze,
     rules: &GameRules,
@@ -82,23 +98,23 @@ pub fn replay(
     })
 }
 
-/// Replays a transcript without the robot and keeps every reading and event.
+/// Like [`replay`], and also returns every reading and event.
 ///
 /// # Errors
 ///
-/// When it cannot be of a match in that maze by those rules.
+/// If the transcript cannot belong to a match in that maze with those rules.
 ///
 /// ```
 /// use wasmouse_core::game::{Action, GameRules, Verdict};
 /// use wasmouse_core::maze::{Maze, Turn, Walls};
 /// use wasmouse_core::record::{Transcript, trace};
 ///
-/// let maze = Maze::contest(Walls::open(12)).expect("a legal start and goal");
+/// let maze = Maze::contest(Walls::open(12)).expect("start and goal fit");
 /// let rules = GameRules { budget: 2, ..GameRules::default() };
 /// let mut transcript = Transcript::default();
 /// transcript.push(Action::Move { turn: Turn::Straight, advance: 3 });
 /// transcript.push(Action::Reset);
-/// let (result, trace) = trace(&maze, &rules, &transcript).expect("two steps");
+/// let (result, trace) = trace(&maze, &rules, &transcript).expect("a whole match");
 /// assert_eq!(result.verdict, Verdict::BudgetUsedUp { goal_reached: false });
 /// assert_eq!(trace.steps()[1].sensors.front, 8);
 /// ```
@@ -138,7 +154,7 @@ mod tests {
 
     #[track_caller]
     fn check(actions: usize, fault: Option<Phase>, expected: Result<u32, ReplayError>) {
-        let maze = Maze::contest(Walls::open(12)).expect("a maze");
+        let maze = Maze::contest(Walls::open(12)).expect("start and goal fit");
         let rules = GameRules {
             budget: 3,
             ..GameRules::default()
@@ -164,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn only_matches_that_can_be_are_replayed() {
+    fn impossible_transcripts_are_rejected() {
         check(3, None, Ok(3));
         check(2, None, Err(ReplayError::Unfinished));
         check(4, None, Err(ReplayError::ActionAfterEnd));

@@ -1,4 +1,4 @@
-//! [`MatchSpec`]: a match that is to be played.
+//! [`MatchSpec`]: a match to play.
 
 use std::sync::Arc;
 
@@ -6,14 +6,14 @@ use super::MatchKey;
 use crate::game::Ruleset;
 use crate::maze::Maze;
 
-/// What to play, besides the robot itself: the key of the match, with the maze and the rules
-/// that the key names.
-#[derive(Clone, Debug)]
+/// A match to play: its key, with the maze and the rules that the key identifies by digest. The
+/// executor has the robot.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MatchSpec {
     /// The identity of the match.
     pub key: MatchKey,
-    /// The maze; its digest is that of the key.
+    /// The maze; the key has its digest.
     pub maze: Arc<Maze>,
-    /// The rules; their digest is that of the key.
+    /// The rules; the key has their digest.
     pub rules: Arc<Ruleset>,
 }

@@ -1,11 +1,11 @@
-//! [`Transcript`]: the robot's actions in a match, at about one byte a step.
+//! [`Transcript`]: the robot's actions in a match, at about one byte per step.
 
+use crate::Digest;
 use crate::game::{Action, FaultKind, Phase};
 use crate::maze::Turn;
-use crate::{Digest, DigestBuilder};
 
 /// How a match ended.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Ending {
     /// By the rules: in the goal, or with the last step of the budget.
     #[default]
@@ -14,17 +14,29 @@ pub enum Ending {
     Fault {
         /// What happened.
         kind: FaultKind,
-        /// What the robot was doing.
+        /// The part of the match.
         phase: Phase,
-        /// What exactly, for the contestant; untrusted text.
+        /// A message for the contestant; untrusted text.
         detail: String,
     },
 }
 
 /// The robot's actions in a match, in order, and how the match ended.
 ///
-/// With the maze and the rules it gives the whole match again ([`replay`](super::replay)).
-/// Reused from match to match, so that a contest does not allocate for each.
+/// With the maze and the rules, [`replay`](super::replay) computes the match from it.
+///
+/// ```
+/// use wasmouse_core::game::Action;
+/// use wasmouse_core::maze::Turn;
+/// use wasmouse_core::record::Transcript;
+///
+/// let mut transcript = Transcript::default();
+/// transcript.push(Action::Move { turn: Turn::Right, advance: 3 });
+/// transcript.push(Action::Reset);
+/// let bytes = transcript.to_bytes();
+/// assert_eq!(bytes, [1, 0, 217, 0]);
+/// assert_eq!(Transcript::from_bytes(&bytes), Ok(transcript));
+/// ```
 ///
 /// # Encoding
 ///
@@ -33,17 +45,16 @@ pub enum Ending {
 /// | bytes | meaning |
 /// |---|---|
 /// | 1 | the version of the encoding, 1 |
-/// | 1 | the ending: 0 by the rules, else 1 + the position in [`FaultKind::ALL`] |
-/// | 1, 4, n | only after a fault: the position in [`Phase::ALL`], the length of the detail (little endian), the detail in UTF-8 |
+/// | 1 | the ending: 0 by the rules, else 1 + the index in [`FaultKind::ALL`] |
+/// | 1, 4, n | only for a fault: the index in [`Phase::ALL`], the length n of the detail (little endian), the detail in UTF-8 |
 /// | rest | the actions |
 ///
 /// An action is one byte: 0 for a reset, 4 + 84 x turn + (advance + 42) for a move with an
 /// advance from -42 to 41 and a turn of 0 left, 1 straight, 2 right. Any other move is two
-/// bytes: 1 + turn, then the advance as a signed byte. Each transcript has exactly one
-/// encoding.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+/// bytes: 1 + turn, then the advance as a signed byte. Each transcript has exactly one encoding.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Transcript {
-    /// Actions as in the encoding; always valid.
+    /// The actions in their encoding, always valid.
     actions: Vec<u8>,
     ending: Ending,
 }
@@ -51,16 +62,16 @@ pub struct Transcript {
 /// Why bytes are not a transcript.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TranscriptError {
-    /// It ends too early.
+    /// The bytes end too early.
     #[error("the transcript is truncated")]
     Truncated,
-    /// Another version of the encoding.
-    #[error("the transcript has version {0}, and this program reads version {VERSION}")]
+    /// The version of the encoding is not supported.
+    #[error("unsupported transcript version {0}, expected {VERSION}")]
     Version(u8),
-    /// A byte that means nothing there.
+    /// A byte has no meaning there.
     #[error("byte {offset} of the transcript is invalid")]
     Invalid {
-        /// Counted from 0.
+        /// The position of the byte, counted from 0.
         offset: usize,
     },
 }
@@ -68,6 +79,7 @@ pub enum TranscriptError {
 const VERSION: u8 = 1;
 
 const RESET: u8 = 0;
+const LONG_MOVE: u8 = 1;
 const FIRST_MOVE: u8 = 4;
 const ADVANCE_MIN: i8 = -42;
 const ADVANCES: u8 = 84;
@@ -75,7 +87,7 @@ const ADVANCES: u8 = 84;
 const TURNS: [Turn; 3] = [Turn::Left, Turn::Straight, Turn::Right];
 
 impl Transcript {
-    /// Forgets everything and keeps the memory.
+    /// Resets this to the default, but keeps the memory for the next match.
     pub fn clear(&mut self) {
         self.actions.clear();
         self.ending = Ending::Rules;
@@ -91,14 +103,14 @@ impl Transcript {
                     Some(code) => self.actions.push(FIRST_MOVE + ADVANCES * turn + code),
                     None => {
                         let advance = advance.cast_unsigned();
-                        self.actions.extend([RESET + 1 + turn, advance]);
+                        self.actions.extend([LONG_MOVE + turn, advance]);
                     }
                 }
             }
         }
     }
 
-    /// Ends the match by a fault.
+    /// Ends the match with a fault.
     pub fn end_with_fault(&mut self, kind: FaultKind, phase: Phase, detail: String) {
         self.ending = Ending::Fault {
             kind,
@@ -112,7 +124,8 @@ impl Transcript {
         let mut bytes = self.actions.iter().copied();
         std::iter::from_fn(move || {
             let first = bytes.next()?;
-            Some(decode(first, || bytes.next()).expect("only valid actions are kept"))
+            let second = if is_long(first) { bytes.next()? } else { 0 };
+            Some(decode(first, second).expect("the actions are valid"))
         })
     }
 
@@ -123,10 +136,7 @@ impl Transcript {
 
     /// The identity of the transcript: the SHA-256 of its encoding.
     pub fn digest(&self) -> Digest {
-        DigestBuilder::plain()
-            .raw(&self.header())
-            .raw(&self.actions)
-            .finish()
+        Digest::of(&self.to_bytes())
     }
 
     /// The encoding.
@@ -136,11 +146,11 @@ impl Transcript {
         bytes
     }
 
-    /// Reads an encoding.
+    /// Decodes the bytes of [`Transcript::to_bytes`].
     ///
     /// # Errors
     ///
-    /// When the bytes are not exactly what [`Transcript::to_bytes`] writes.
+    /// If the bytes are not the encoding of a transcript.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, TranscriptError> {
         let mut reader = Reader { bytes, offset: 0 };
         match reader.byte()? {
@@ -170,18 +180,8 @@ impl Transcript {
         let actions = &bytes[reader.offset..];
         while let Ok(first) = reader.byte() {
             let offset = reader.offset - 1;
-            let mut missing = false;
-            let action = decode(first, || {
-                let second = reader.byte();
-                missing = second.is_err();
-                second.ok()
-            });
-            if missing {
-                return Err(TranscriptError::Truncated);
-            }
-            if action.is_none() {
-                return Err(TranscriptError::Invalid { offset });
-            }
+            let second = if is_long(first) { reader.byte()? } else { 0 };
+            decode(first, second).ok_or(TranscriptError::Invalid { offset })?;
         }
         Ok(Self {
             actions: actions.to_vec(),
@@ -217,20 +217,24 @@ fn position<T: PartialEq>(all: &[T], value: &T) -> u8 {
     u8::try_from(position).expect("a list of fewer than 255 values")
 }
 
-/// The code of an advance that fits one byte together with its turn.
+/// The code of an advance that fits in one byte together with its turn.
 fn short_code(advance: i8) -> Option<u8> {
     let code = u8::try_from(i16::from(advance) - i16::from(ADVANCE_MIN)).ok()?;
     (code < ADVANCES).then_some(code)
 }
 
-/// The action that begins with `first`; `None` when there is none, or when a short action is
-/// written in the long form.
-fn decode(first: u8, second: impl FnOnce() -> Option<u8>) -> Option<Action> {
+const fn is_long(first: u8) -> bool {
+    LONG_MOVE <= first && first < FIRST_MOVE
+}
+
+/// The action of these bytes; `second` counts only if `first` is that of a long action. `None` if
+/// a long action has a short form.
+fn decode(first: u8, second: u8) -> Option<Action> {
     match first {
         RESET => Some(Action::Reset),
-        1..FIRST_MOVE => {
-            let advance = second()?.cast_signed();
-            let turn = TURNS[usize::from(first - 1)];
+        LONG_MOVE..FIRST_MOVE => {
+            let advance = second.cast_signed();
+            let turn = TURNS[usize::from(first - LONG_MOVE)];
             let action = Action::Move { turn, advance };
             short_code(advance).is_none().then_some(action)
         }
@@ -267,7 +271,7 @@ impl<'a> Reader<'a> {
         Ok(byte)
     }
 
-    /// The value that the byte just read stands for.
+    /// The value for `code`, the byte that was read last.
     fn choose<T: Copy>(&self, all: &[T], code: u8) -> Result<T, TranscriptError> {
         let offset = self.offset - 1;
         let chosen = all.get(usize::from(code)).copied();
@@ -281,7 +285,7 @@ mod tests {
 
     use super::*;
 
-    /// Every action there is, in a fixed order.
+    /// All actions, in a fixed order.
     fn every_action() -> Vec<Action> {
         let advances = i8::MIN..=i8::MAX;
         let moves = TURNS.into_iter().flat_map(|turn| {
@@ -293,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn every_action_comes_back() {
+    fn all_actions_round_trip() {
         let mut transcript = Transcript::default();
         for action in every_action() {
             transcript.push(action);
@@ -306,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn every_fault_comes_back() {
+    fn all_faults_round_trip() {
         for kind in FaultKind::ALL {
             for phase in Phase::ALL {
                 let mut transcript = Transcript::default();
@@ -323,7 +327,7 @@ mod tests {
     }
 
     #[test]
-    fn invalid_bytes_are_named() {
+    fn invalid_bytes_are_located() {
         use TranscriptError::{Invalid, Truncated, Version};
         for (bytes, expected) in [
             (&[][..], Truncated),
@@ -342,7 +346,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn what_can_be_read_is_written_the_same(bytes: Vec<u8>) {
+        fn decoding_and_encoding_gives_the_same_bytes(bytes: Vec<u8>) {
             for bytes in [bytes.clone(), [&[1, 0][..], &bytes].concat()] {
                 if let Ok(transcript) = Transcript::from_bytes(&bytes) {
                     prop_assert_eq!(transcript.to_bytes(), bytes);

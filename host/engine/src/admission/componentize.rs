@@ -20,19 +20,18 @@ use wit_parser::{Resolve, WorldId};
 
 use super::binary::BinaryKind;
 use super::names::list_escaped;
+use super::version::{self, COMPATIBLE, REBUILD, VERSION};
 
 /// The text of the WIT package `wasmouse:robot`, the contract every robot keeps.
 pub const ROBOT_WIT: &str = include_str!("../../../../wit/robot.wit");
 
 /// The names under which a core module exports the functions of `controller`,
-/// in the order of the WIT.
-pub const CONTROLLER_EXPORTS: [&str; 2] = [
-    "wasmouse:robot/controller@0.1.0#start",
-    "wasmouse:robot/controller@0.1.0#next-move",
-];
+/// in the order of the WIT. Another compatible version may stand in them.
+pub const CONTROLLER_EXPORTS: [&str; 2] = version::CONTROLLER_FUNCTIONS;
 
-/// The module name under which a core module imports the functions of `journal`.
-pub const JOURNAL_IMPORT: &str = "wasmouse:robot/journal@0.1.0";
+/// The module name under which a core module imports the functions of `journal`. The
+/// version is that of the exports.
+pub const JOURNAL_IMPORT: &str = version::JOURNAL;
 
 /// Magic number and version, before the first section.
 const HEADER_BYTES: usize = 8;
@@ -75,11 +74,17 @@ pub enum ComponentizeError {
         /// The exports that the module has, for people.
         exports: String,
     },
+    /// The module was built for an incompatible version of the interface.
+    #[error("the robot was built for wasmouse:robot@{found}; this host runs {COMPATIBLE}")]
+    OtherVersion {
+        /// That version.
+        found: String,
+    },
     /// The module exports a part of a robot.
     #[error("core module without the export `{name}`")]
     MissingExport {
         /// The name that has to be exported.
-        name: &'static str,
+        name: String,
     },
     /// The module imports something that a robot cannot have.
     #[error("core module imports `{name}` from `{module}`, which is not available to robots")]
@@ -90,7 +95,7 @@ pub enum ComponentizeError {
         name: String,
     },
     /// The module has the names of a robot, but not its signatures.
-    #[error("core module does not fit the world `wasmouse:robot/robot@0.1.0`: {message}")]
+    #[error("core module does not fit the world `wasmouse:robot/robot@{VERSION}`: {message}")]
     Mismatch {
         /// What does not fit.
         message: String,
@@ -116,8 +121,9 @@ impl ComponentizeError {
                 "a robot has no files, clock, randomness or network: build for \
                  wasm32-unknown-unknown or another target without WASI, and drop what needs them"
             }
+            Self::OtherVersion { .. } => REBUILD,
             Self::Mismatch { .. } => {
-                "build the robot with bindings for the WIT package wasmouse:robot@0.1.0"
+                "build the robot with bindings for this version's `wit/robot.wit`"
             }
         }
     }
@@ -148,17 +154,23 @@ impl ComponentizeError {
 /// ```
 pub fn componentize(core_module: &[u8]) -> Result<Vec<u8>, ComponentizeError> {
     let shape = Shape::of(core_module)?;
-    shape.check_exports()?;
-    shape.check_imports()?;
-    encode(&shape.with_robot_types())
+    let patch = shape.check_exports()?;
+    shape.check_imports(patch)?;
+    encode(&shape.with_robot_types(patch))
 }
 
-/// The robot world, parsed from [`ROBOT_WIT`].
-fn robot_world() -> (Resolve, WorldId) {
+/// The robot world, parsed from [`ROBOT_WIT`], in the compatible version that ends in
+/// `patch`: a component has the names that its module has.
+fn robot_world(patch: u64) -> (Resolve, WorldId) {
     let mut resolve = Resolve::default();
     let package = resolve
         .push_str("robot.wit", ROBOT_WIT)
         .expect("the embedded WIT parses; a test holds it");
+    let name = &mut resolve.packages[package].name;
+    let version = name.version.as_mut();
+    version
+        .expect("the embedded WIT has a version; a test holds it")
+        .patch = patch;
     let world = resolve
         .select_world(&[package], Some("robot"))
         .expect("the embedded WIT has the world `robot`; a test holds it");
@@ -252,10 +264,24 @@ impl Shape {
         Ok(false)
     }
 
-    /// Are the exports there that make a module a robot?
-    fn check_exports(&self) -> Result<(), ComponentizeError> {
+    /// Are the exports there that make a module a robot? Returns the patch version of
+    /// the interface that they belong to.
+    fn check_exports(&self) -> Result<u64, ComponentizeError> {
         let has = |name: &str| self.exports.contains(name);
-        if !CONTROLLER_EXPORTS.into_iter().any(has) {
+        let interfaces = self.exports.iter().filter_map(|name| {
+            let (interface, _) = name.split_once('#')?;
+            Some(interface)
+        });
+        let patch = interfaces
+            .clone()
+            .filter_map(|name| version::of_interface(name, Some("controller")))
+            .find_map(version::patch);
+        let Some(patch) = patch else {
+            let imports = self.imports.iter().map(|(module, _)| module.as_str());
+            if let Some(found) = version::other(interfaces.chain(imports)) {
+                let found = found.to_owned();
+                return Err(ComponentizeError::OtherVersion { found });
+            }
             return Err(ComponentizeError::NotARobot {
                 types: match self.types {
                     Some(_) => "with component types",
@@ -263,38 +289,53 @@ impl Shape {
                 },
                 exports: list_escaped(&self.exports),
             });
-        }
+        };
         // The answer of `next-move` is returned through memory.
-        let [start, next_move] = CONTROLLER_EXPORTS;
-        match [start, next_move, "memory"]
+        let [start, next_move] = CONTROLLER_EXPORTS.map(|name| with_patch(name, patch));
+        match [start, next_move, "memory".to_owned()]
             .into_iter()
             .find(|name| !has(name))
         {
-            None => Ok(()),
+            None => Ok(patch),
             Some(name) => Err(ComponentizeError::MissingExport { name }),
         }
     }
 
-    fn check_imports(&self) -> Result<(), ComponentizeError> {
-        let foreign = |(module, _): &&(String, String)| module != JOURNAL_IMPORT;
-        match self.imports.iter().find(foreign) {
-            None => Ok(()),
-            Some((module, name)) => Err(ComponentizeError::ForeignImport {
-                module: module.escape_debug().to_string(),
-                name: name.escape_debug().to_string(),
-            }),
+    fn check_imports(&self, patch: u64) -> Result<(), ComponentizeError> {
+        let journal = with_patch(JOURNAL_IMPORT, patch);
+        let foreign = |(module, _): &&(String, String)| *module != journal;
+        let Some((module, name)) = self.imports.iter().find(foreign) else {
+            return Ok(());
+        };
+        if let Some(found) = version::other([module.as_str()]) {
+            let found = found.to_owned();
+            return Err(ComponentizeError::OtherVersion { found });
         }
+        if version::is_compatible(module, "journal") {
+            let message = format!("it imports `{module}`, where its exports need `{journal}`");
+            return Err(ComponentizeError::Mismatch { message });
+        }
+        Err(ComponentizeError::ForeignImport {
+            module: module.escape_debug().to_string(),
+            name: name.escape_debug().to_string(),
+        })
     }
 
     /// The module with the types of the world `robot`.
-    fn with_robot_types(self) -> Vec<u8> {
-        let (resolve, world) = robot_world();
+    fn with_robot_types(self, patch: u64) -> Vec<u8> {
+        let (resolve, world) = robot_world(patch);
         let strings = self.types.unwrap_or_default();
         let mut bytes = self.untyped;
         embed_component_metadata(&mut bytes, &resolve, world, strings, false)
             .expect("the embedded WIT encodes; a test holds it");
         bytes
     }
+}
+
+/// A name of the interface with another patch version in it.
+fn with_patch(name: &str, patch: u64) -> String {
+    let version = format!("{}{patch}", COMPATIBLE.trim_end_matches('x'));
+    name.replacen(VERSION, &version, 1)
 }
 
 /// How a module encodes strings, by its type information: a component that has

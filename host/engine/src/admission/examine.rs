@@ -7,9 +7,10 @@ use std::borrow::Cow;
 
 use super::binary::{self, BinaryKind};
 use super::componentize::{ComponentizeError, componentize};
-use super::names::{CONTROLLER, is_known_import};
+
 use super::precheck::{Shape, precheck};
 use super::rejection::Rejection;
+use super::version;
 use crate::limits::Limits;
 
 /// What is known of a file without compiling it.
@@ -94,11 +95,20 @@ fn in_core_module(rejection: Rejection) -> Rejection {
 /// Checks imports and exports by name, so that the rejection can say what to do; their types
 /// are checked when the component is linked.
 fn check_names(shape: &Shape) -> Result<(), Rejection> {
-    let unknown = |name: &&String| !is_known_import(name);
-    if let Some(name) = shape.imports.iter().find(unknown) {
+    let names = shape.imports.iter().chain(&shape.exports);
+    if let Some(version) = version::other(names.map(String::as_str)) {
+        return Err(Rejection::OtherVersion(version.to_owned()));
+    }
+    let is_known = |name: &String| {
+        ["journal", "types"]
+            .iter()
+            .any(|interface| version::is_compatible(name, interface))
+    };
+    if let Some(name) = shape.imports.iter().find(|name| !is_known(name)) {
         return Err(Rejection::UnknownImport(name.clone()));
     }
-    if !shape.exports.iter().any(|name| name == CONTROLLER) {
+    let is_controller = |name: &String| version::is_compatible(name, "controller");
+    if !shape.exports.iter().any(is_controller) {
         return Err(Rejection::NoController(shape.exports.clone()));
     }
     Ok(())

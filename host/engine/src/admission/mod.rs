@@ -13,6 +13,7 @@ mod names;
 mod place;
 pub mod precheck;
 mod rejection;
+mod version;
 
 pub use binary::BinaryKind;
 pub use componentize::{
@@ -21,6 +22,7 @@ pub use componentize::{
 pub(crate) use examine::check_size;
 pub use examine::{Examination, examine};
 pub use inspection::{Inspection, ResourceRequirements, world};
-pub(crate) use names::{CONTROLLER, JOURNAL};
 pub use place::{FunctionPlace, Place};
 pub use rejection::Rejection;
+pub use version::VERSION as INTERFACE_VERSION;
+pub(crate) use version::{CONTROLLER, JOURNAL};

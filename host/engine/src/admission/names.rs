@@ -1,20 +1,4 @@
-//! The names of the robot interface, and lists of names in messages.
-
-/// The export that makes a component a robot.
-pub(crate) const CONTROLLER: &str = "wasmouse:robot/controller@0.1.0";
-
-/// The journal's name as an import; a robot built against another patch version of the same
-/// interface links all the same.
-pub(crate) const JOURNAL: &str = "wasmouse:robot/journal@0.1.0";
-
-/// The interface `types` holds no functions, but its types are imported by every component
-/// that uses them.
-const TYPES: &str = "wasmouse:robot/types@0.1.0";
-
-/// Whether a robot may import an interface of that name.
-pub(super) fn is_known_import(name: &str) -> bool {
-    name == JOURNAL || name == TYPES
-}
+//! Lists of names in messages.
 
 /// At most this many names are listed, so that a message stays readable.
 const NAMES_SHOWN_MAX: usize = 8;

@@ -1,8 +1,9 @@
 //! [`Rejection`]: why a file is not admitted as a robot, with what to do about it.
 
 use super::componentize::ComponentizeError;
-use super::names::{CONTROLLER, list};
+use super::names::list;
 use super::place::Place;
+use super::version::{COMPATIBLE, CONTROLLER, REBUILD};
 
 /// Why a file was not admitted. Says nothing about how the robot would play.
 #[derive(Debug, thiserror::Error)]
@@ -25,6 +26,9 @@ pub enum Rejection {
     /// The file is malformed, or uses a proposal that is turned off.
     #[error("the component is not valid: {0}")]
     Invalid(String),
+    /// The robot was built for an incompatible version of the interface.
+    #[error("the robot was built for wasmouse:robot@{0}; this host runs {COMPATIBLE}")]
+    OtherVersion(String),
     /// The component imports something that is not available to robots.
     #[error("the component imports `{0}`, which is not available to robots")]
     UnknownImport(String),
@@ -68,6 +72,9 @@ impl Rejection {
             Self::Empty => "empty",
             Self::TooLarge { .. } => "too-large",
             Self::NotWasm(_) => "not-wasm",
+            Self::CoreModule(ComponentizeError::OtherVersion { .. }) | Self::OtherVersion(_) => {
+                "other-version"
+            }
             Self::CoreModule(_) => "core-module",
             Self::Invalid(_) => "invalid",
             Self::UnknownImport(_) => "unknown-import",
@@ -89,6 +96,9 @@ impl Rejection {
             Self::TooLarge { .. } => {
                 "build in release mode, without debug information (`strip = \"debuginfo\"`)"
             }
+            Self::CoreModule(ComponentizeError::OtherVersion { .. }) | Self::OtherVersion(_) => {
+                REBUILD
+            }
             Self::CoreModule(_) => {
                 "build the module against `wit/robot.wit` (in Rust: the crate `wasmouse-sdk`)"
             }
@@ -101,7 +111,7 @@ impl Rejection {
                  (`--stub-wasi` in componentize-py, `--backend-qjs-stub-wasi` in jco)"
             }
             Self::UnknownImport(_) => {
-                "a robot may import `wasmouse:robot/journal@0.1.0` and nothing else"
+                "a robot may import the interface `journal` of `wit/robot.wit` and nothing else"
             }
             Self::NoController(_) => {
                 "export the interface `controller` of `wit/robot.wit`; in Rust, call \

@@ -5,28 +5,28 @@ use super::robot::{BundledRobot, Variant};
 pub(super) const ROBOTS: &[BundledRobot] = &[
     BundledRobot {
         name: "champion",
-        description: "Learns what kind of maze it is in, and explores only what is likely to pay.",
+        description: "Learns what kind of maze it is in, and explores only what is likely to pay off.",
         variants: &[
             Variant {
                 value: 0,
                 name: "fast",
-                description: "Looks for shorter ways in 12 mazes that agree with what it saw, drawn anew after every step; takes milliseconds.",
+                description: "Looks for shorter paths in 12 sampled mazes that agree with what it has seen; takes milliseconds.",
             },
             Variant {
                 value: 1,
                 name: "deep",
-                description: "The same with 64 mazes, drawn with more care; takes a tenth of a second.",
+                description: "The same with 64 sampled mazes and more sampling rounds; takes a tenth of a second.",
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/champion.wasm"),
-        sha256: "7f0341b7268bbfbcc09551c6fdb556ae62e9519dda5114ae2436b04f4211e977",
+        sha256: "6de2a44a9c7f9fe190f1c33fabcf20fcf5b8f4f6525fbc37c2f66b2884c2802d",
     },
     BundledRobot {
         name: "count-expansion",
-        description: "Lobato's count expansion, from the same report as the random walk.",
+        description: "Lobato's count expansion, the second benchmark of his report.",
         variants: &[],
         component: include_bytes!("../../../../example-robots/prebuilt/count-expansion.wasm"),
-        sha256: "0195ace5b66e04bca9c0d6ae3732b3ccb9c83bf8ca4f5251a0b6e4d36ac8cea8",
+        sha256: "2f19f89e9cef1afb5ecfa614b8bced3834ad200d61b7701266638a6adee61cb7",
     },
     BundledRobot {
         name: "dfs",
@@ -35,43 +35,43 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             Variant {
                 value: 0,
                 name: "everything",
-                description: "Explores every cell that it can reach.",
+                description: "Explores every reachable cell.",
             },
             Variant {
                 value: 1,
                 name: "reset",
-                description: "Resets as soon as it stands in the goal.",
+                description: "Resets as soon as it is in the goal.",
             },
             Variant {
                 value: 2,
                 name: "pure",
-                description: "Explores every cell without backtracking: drives straight to the next branch.",
+                description: "Explores every reachable cell without backtracking: drives to the next branch on the shortest path.",
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/dfs.wasm"),
-        sha256: "195a6adfe261730cb868625b4eff03896b42d46882741335df24776333afaabe",
+        sha256: "742e6d7318e06824306a44b8d5b8bf00a7bad277c82144a991f9984b61cc36e5",
     },
     BundledRobot {
         name: "flood",
-        description: "Always on the shortest path that may still exist.",
+        description: "Flood fill, treating unknown walls as open.",
         variants: &[
             Variant {
                 value: 0,
                 name: "reset",
-                description: "Resets as soon as it stands in the goal.",
+                description: "Resets as soon as it is in the goal.",
             },
             Variant {
                 value: 1,
                 name: "certain",
-                description: "Explores until the best path is certain, or the budget is short.",
+                description: "Explores until the best path is certain, or the remaining budget is just enough for the speed run.",
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/flood.wasm"),
-        sha256: "0490901ceb08c353f674bab517500a21d768b8173682cd98b9b68db48b60a77c",
+        sha256: "e8a179b0968b4ac5ed72d8bc026c92577992ad221ddaf2e823d84ad73f96c162",
     },
     BundledRobot {
         name: "lobato",
-        description: "Lobato's A* robots: straight to the goal, there and back, the swing over key points.",
+        description: "Lobato's A* robots: straight to the goal, there and back, and the swing over key points.",
         variants: &[
             Variant {
                 value: 0,
@@ -100,21 +100,21 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/lobato.wasm"),
-        sha256: "4d75f5e98fcfcd297adb82277265911a035d8123dabfdb36790a905a9c523b63",
+        sha256: "f5292a2f840c0c372b9ccf3866e61e39e23ba16af24232e5dd72cf8fde9cffe4",
     },
     BundledRobot {
         name: "minnett",
-        description: "Minnett's peaks of uncertainty, in the five stages of his report.",
+        description: "Minnett's planner: drives to the most uncertain cells, in the five stages of his report.",
         variants: &[
             Variant {
                 value: 0,
                 name: "final",
-                description: "His last stage: unscaled uncertainties, and loops are broken.",
+                description: "The last stage: unscaled uncertainties, and loops are broken.",
             },
             Variant {
                 value: 1,
                 name: "first",
-                description: "His first working version: scaled peaks, one step of each path.",
+                description: "The first working version: scaled uncertainties, one step of each path.",
             },
             Variant {
                 value: 2,
@@ -124,7 +124,7 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             Variant {
                 value: 3,
                 name: "optimal-path",
-                description: "The second stage with path costs that are right.",
+                description: "The second stage with correct path costs.",
             },
             Variant {
                 value: 4,
@@ -133,11 +133,11 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/minnett.wasm"),
-        sha256: "e3e8e23fed8545801719c738976353c38f00431ce9d20c48ad7976a0eada9da3",
+        sha256: "941a89b597eb4718da4cedabfc406ff1854953d6bbef262ae5f86344c68cc668",
     },
     BundledRobot {
         name: "rai",
-        description: "Rai's planner: where it has been least, dead ends marked, a share of the maze explored.",
+        description: "Rai's planner: least-visited cells first, marking dead ends, until a share of the maze is explored.",
         variants: &[
             Variant {
                 value: 0,
@@ -166,18 +166,18 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/rai.wasm"),
-        sha256: "d7fff5e3425947692487c9398526a1e9191a89474e547377b51f6f542bcdf686",
+        sha256: "cc02728a45f6803205e5ee46d1560a261bfd3dcaa7ede8ecb4d18f86fd6207e2",
     },
     BundledRobot {
         name: "random",
-        description: "Lobato's random walk, the robot to be beaten.",
+        description: "Lobato's random walk, the first benchmark of his report.",
         variants: &[],
         component: include_bytes!("../../../../example-robots/prebuilt/random.wasm"),
-        sha256: "aabd54c3aff36de0443d871b860407cb997d24092f9d693ff1b6c7418c741636",
+        sha256: "72b055b75ec022e37795f70b891cd807c487a99a2cd9dc176f935e0982031cb5",
     },
     BundledRobot {
         name: "wall-follower",
-        description: "Goes straight, else to an open side, else turns around.",
+        description: "Goes straight, otherwise to an open side, otherwise turns around.",
         variants: &[
             Variant {
                 value: 0,
@@ -191,6 +191,6 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/wall-follower.wasm"),
-        sha256: "5269a3cb98a00974603c896106d179a6437685cbb45e0e466e056693d0ddf7a4",
+        sha256: "16e640030e44dd370a5ec31a894b7213f7d55fcbc9aa97a398988fe6a8946804",
     },
 ];

@@ -18,6 +18,22 @@ const TEXT_CHARS_MAX: usize = 160;
 /// mangled name is longer, and no name can be made out from a part of it.
 const MANGLED_CHARS_MAX: usize = 2000;
 
+/// How a function without a name is called; its index follows.
+const UNNAMED: &str = "function ";
+
+/// First parts of paths of the Rust runtime: the standard library, what the compiler
+/// generates, and the bindings in the SDK, which hold its panic hook.
+const RUNTIME_PATHS: [&str; 8] = [
+    "__rustc",
+    "alloc",
+    "core",
+    "hashbrown",
+    "panic_abort",
+    "rust_panic",
+    "std",
+    "wasmouse_sdk::bindings",
+];
+
 /// One call in progress.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Frame {
@@ -59,13 +75,52 @@ impl Frame {
                 "{:#}",
                 rustc_demangle::demangle(cut(name, MANGLED_CHARS_MAX))
             ),
-            None => format!("function {}", info.func_index()),
+            None => format!("{UNNAMED}{}", info.func_index()),
         };
         Self {
             function: cut(&function, TEXT_CHARS_MAX).to_owned(),
             offset: info.module_offset().and_then(|at| u64::try_from(at).ok()),
             source: symbol.and_then(source),
         }
+    }
+
+    /// The frames that say something about the robot, the innermost first: without those
+    /// of the Rust runtime, which reports a panic. All of them when nothing else is left.
+    pub fn of_robot(frames: &[Self]) -> Vec<&Self> {
+        let mut of_robot = Vec::new();
+        let mut called_by_runtime = false;
+        for frame in frames.iter().rev() {
+            // Components have functions without names that pass calls on to the host.
+            let is_runtime = frame.is_runtime() || (called_by_runtime && !frame.is_named());
+            if !is_runtime {
+                of_robot.push(frame);
+            }
+            called_by_runtime = is_runtime;
+        }
+        if of_robot.is_empty() {
+            return frames.iter().collect();
+        }
+        of_robot.reverse();
+        of_robot
+    }
+
+    fn is_named(&self) -> bool {
+        !self.function.starts_with(UNNAMED)
+    }
+
+    /// Whether the function belongs to the Rust runtime and not to the robot.
+    fn is_runtime(&self) -> bool {
+        let path = self.function.trim_start_matches(['<', '&', '*', '[', '(']);
+        // A trait's function for a type that has no path, such as `<usize as core::...>`.
+        let path = match path.split_once(" as ") {
+            Some((subject, implemented)) if !subject.contains("::") => implemented,
+            _ => path,
+        };
+        let is_within = |root: &&str| {
+            let rest = path.strip_prefix(*root);
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with("::"))
+        };
+        RUNTIME_PATHS.iter().any(is_within)
     }
 
     /// The frame as it may have come from a worker that is not itself any more.
@@ -117,6 +172,78 @@ mod tests {
         assert_eq!(cut("short", 5), "short");
         let long = "é".repeat(TEXT_CHARS_MAX + 5);
         assert_eq!(cut(&long, TEXT_CHARS_MAX).chars().count(), TEXT_CHARS_MAX);
+    }
+
+    #[test]
+    fn frames_of_the_runtime_are_told_apart() {
+        let is_runtime = |function: &str| {
+            let function = function.to_owned();
+            let (offset, source) = (None, None);
+            Frame {
+                function,
+                offset,
+                source,
+            }
+            .is_runtime()
+        };
+        for function in [
+            "rust_panic",
+            "__rustc::rust_begin_unwind",
+            "core::panicking::panic_fmt",
+            "core::option::expect_failed",
+            "std::sys::backtrace::__rust_end_short_backtrace::<_, !>",
+            "<usize as core::slice::index::SliceIndex<[u8]>>::index",
+            "<alloc::vec::Vec<u8> as core::ops::index::Index<usize>>::index",
+            "wasmouse_sdk::bindings::runtime::report_panics::{closure#0}",
+        ] {
+            assert!(is_runtime(function), "{function}");
+        }
+        for function in [
+            "next_move",
+            "std_robot::start",
+            "core_sample::<u8>",
+            "my_robot::plan",
+            "<my_robot::Flood as wasmouse_sdk::robot::Robot>::start",
+            "<my_robot::Grid as core::ops::index::Index<usize>>::index",
+            "wasmouse_sdk::tracker::Tracker::new",
+            "wasmouse:robot/controller@0.2.0#start",
+            "function 7",
+        ] {
+            assert!(!is_runtime(function), "{function}");
+        }
+    }
+
+    #[test]
+    fn the_runtime_is_hidden_unless_nothing_else_is_left() {
+        let shown = |functions: &[&str]| {
+            let frames: Vec<Frame> = functions
+                .iter()
+                .map(|&function| Frame {
+                    function: function.to_owned(),
+                    offset: None,
+                    source: None,
+                })
+                .collect();
+            let of_robot = Frame::of_robot(&frames).into_iter();
+            let names: Vec<String> = of_robot.map(|it| it.function.clone()).collect();
+            names.join(" ")
+        };
+        let panicked = [
+            "function 0",
+            "std::panicking::panic_with_hook",
+            "plan",
+            "start",
+        ];
+        assert_eq!(shown(&panicked), "plan start");
+        assert_eq!(shown(&["plan", "core::iter::fold", "start"]), "plan start");
+        // Without names, nothing is known about a function.
+        assert_eq!(
+            shown(&["function 0", "function 7"]),
+            "function 0 function 7"
+        );
+        assert_eq!(shown(&["function 3", "plan"]), "function 3 plan");
+        assert_eq!(shown(&["core::panicking::panic"]), "core::panicking::panic");
+        assert_eq!(shown(&[]), "");
     }
 
     #[test]

@@ -32,9 +32,10 @@ pub(crate) fn briefing(spec: &MatchSpec) -> types::Briefing {
             BudgetScope::EachRun => types::BudgetScope::EachRun,
         },
         longest_move: rules.longest_move.into(),
+        units_per_cell: 1,
         exploration_divisor: rules.exploration_divisor,
         seed: spec.key.seed,
-        setting: spec.key.variant,
+        variant: spec.key.variant,
     }
 }
 

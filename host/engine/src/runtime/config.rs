@@ -24,7 +24,7 @@ use crate::limits::Limits;
 pub const WASMTIME_VERSION: &str = "48.0.8";
 
 /// Raised with every change to this file that can change fuel or a verdict.
-pub const ENGINE_REVISION: u32 = 3;
+pub const ENGINE_REVISION: u32 = 4;
 
 /// Wall time after which a match is given up as a failure of the host, in
 /// seconds. All the fuel of the default limits lasts 2 s in a robot like flood and

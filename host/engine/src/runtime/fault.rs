@@ -7,6 +7,7 @@ use wasmouse_core::game::{FaultKind, FuelLimit};
 use wasmtime::Trap;
 
 use super::config::MATCH_SECONDS_MAX;
+use super::guest::Panicked;
 use super::limiter::LimitExceeded;
 use crate::error::InfrastructureError;
 
@@ -33,6 +34,9 @@ pub(crate) fn classify(
             LimitExceeded::Table { .. } => FaultKind::TableLimit,
         };
         return Ok((kind, limit.to_string()));
+    }
+    if let Some(panicked) = error.downcast_ref::<Panicked>() {
+        return Ok((FaultKind::Panic, panicked.to_string()));
     }
     if error.is::<wasmtime::PoolConcurrencyLimitError>() {
         return Err(InfrastructureError::call(error));

@@ -26,6 +26,14 @@ pub(crate) struct Guest {
 /// cheaper than computing: about the time of that many operators.
 const CALL_FUEL: u64 = 200;
 
+/// How much of the message of a panic is kept, in bytes.
+const PANIC_BYTES_MAX: usize = 2000;
+
+/// The robot reported an error from which it cannot recover: its message, cut.
+#[derive(Debug, thiserror::Error)]
+#[error("panicked: {0}")]
+pub(super) struct Panicked(String);
+
 /// The linker with everything that a robot may import.
 pub(super) fn linker(engine: &Engine) -> Result<Linker<Guest>, InfrastructureError> {
     let mut linker = Linker::new(engine);
@@ -34,6 +42,7 @@ pub(super) fn linker(engine: &Engine) -> Result<Linker<Guest>, InfrastructureErr
 }
 
 fn add_journal(linker: &mut Linker<Guest>) -> wasmtime::Result<()> {
+    // A robot built for another patch version of the interface links as well.
     let mut journal = linker.instance(JOURNAL)?;
     journal.func_wrap(
         "log",
@@ -85,6 +94,16 @@ fn add_journal(linker: &mut Linker<Guest>) -> wasmtime::Result<()> {
                 belief: self::belief(belief),
             });
             Ok(())
+        },
+    )?;
+    journal.func_wrap(
+        "panic",
+        |mut store: StoreContextMut<'_, Guest>, (text,): (WasmStr,)| -> wasmtime::Result<()> {
+            let text = text.to_str(&store)?;
+            let bytes = text.len();
+            let kept = text[..text.floor_char_boundary(PANIC_BYTES_MAX)].to_owned();
+            charge(&mut store, bytes)?;
+            Err(Panicked(kept).into())
         },
     )?;
     Ok(())

@@ -16,10 +16,10 @@ use crate::admission::{CONTROLLER, Rejection};
 ///
 /// [`Rejection::WrongType`] with the export that differs.
 pub(crate) fn check_types(component: &Component) -> Result<(), Rejection> {
-    let engine = component.engine();
     let component_type = component.component_type();
-    let item = component_type.get_export(engine, CONTROLLER);
-    let Some(ComponentItem::ComponentInstance(controller)) = item.map(|export| export.ty) else {
+    // As the bindings look it up: another patch version is found as well.
+    let item = component.get_export(None, CONTROLLER);
+    let Some((ComponentItem::ComponentInstance(controller), _)) = item else {
         return Err(Rejection::WrongType(format!(
             "`{CONTROLLER}` is not an interface"
         )));

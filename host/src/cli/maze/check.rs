@@ -5,10 +5,10 @@ use std::fmt::Write as _;
 use super::super::exit::Exit;
 use super::super::failure::Failure;
 use super::super::mazes::{self, Source};
-use super::super::output;
-use crate::maze::format::Format;
-use crate::maze::{Maze, Survey, Violation, violations};
+use super::super::output::{self, message};
 use crate::report::maze_check::{CheckedMaze, MazeCheck};
+use wasmouse_core::maze::format::Format;
+use wasmouse_core::maze::{Maze, Survey, Violation, violations};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -62,7 +62,7 @@ pub fn run(args: Args) -> Result<Exit, Failure> {
     let checked: Vec<Checked> = args.mazes.iter().flat_map(|spec| check(spec)).collect();
     for checked in &checked {
         if let Err(failure) = &checked.outcome {
-            tell!("{failure}");
+            message!("{failure}");
         }
     }
     let survey = survey(&checked);
@@ -100,7 +100,7 @@ fn survey(checked: &[Checked]) -> Survey {
     for checked in checked {
         match &checked.outcome {
             Ok(judged) => survey.add(&judged.maze),
-            Err(_) => survey.add_refused(),
+            Err(_) => survey.add_rejected(),
         }
     }
     survey
@@ -112,7 +112,7 @@ fn exit(checked: &[Checked], lenient: bool) -> Exit {
     if outcomes().any(Result::is_err) {
         Exit::Input
     } else if !lenient && outcomes().flatten().any(is_illegal) {
-        Exit::No
+        Exit::CheckFailed
     } else {
         Exit::Success
     }
@@ -169,7 +169,7 @@ fn json(checked: &[Checked], summary: bool, survey: &Survey) -> String {
         let source = checked.label.clone();
         match &checked.outcome {
             Ok(judged) => CheckedMaze::read(source, &judged.maze, judged.format, &judged.broken),
-            Err(failure) => CheckedMaze::refused(source, failure.message().to_owned()),
+            Err(failure) => CheckedMaze::unreadable(source, failure.message().to_owned()),
         }
     });
     MazeCheck::new((!summary).then(|| mazes.collect()), survey).to_json()
@@ -180,7 +180,7 @@ mod tests {
     use std::fs;
 
     use super::*;
-    use crate::maze::bundled;
+    use wasmouse_core::maze::bundled;
 
     /// A legal maze, one with a wall less, and no maze.
     fn folder() -> tempfile::TempDir {
@@ -214,7 +214,7 @@ mod tests {
 
         let (text, exit, _) = check_files(&["b.txt", "a.txt"], false);
         let expected = format!("b.txt: breaks 1 contest rule\n{RULE}a.txt: ok\n");
-        assert_eq!((text, exit), (expected, Exit::No));
+        assert_eq!((text, exit), (expected, Exit::CheckFailed));
 
         let (text, exit, _) = check_files(&["b.txt"], true);
         let expected = format!("b.txt: ok, but breaks 1 contest rule\n{RULE}");

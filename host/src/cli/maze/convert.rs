@@ -8,7 +8,7 @@ use super::super::exit::Exit;
 use super::super::failure::Failure;
 use super::super::mazes::{self, Legality};
 use super::super::output::{self, Existing};
-use crate::maze::format::{self, Format};
+use wasmouse_core::maze::format::{self, Format};
 
 const LONG_HELP: &str = "\
 Formats:
@@ -54,7 +54,7 @@ fn format_parser() -> impl clap::builder::TypedValueParser<Value = Format> {
 
 /// Runs the command.
 pub fn run(args: Args) -> Result<Exit, Failure> {
-    let mazes = mazes::load(&[args.maze], Legality::Lenient)?;
+    let mazes = mazes::load_all(&[args.maze], Legality::Lenient)?;
     let [maze] = &mazes[..] else {
         let message = format!(
             "only one maze can be converted, the folder has {}",

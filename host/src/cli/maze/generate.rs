@@ -9,10 +9,10 @@ use super::super::exit::Exit;
 use super::super::failure::Failure;
 use super::super::interrupt;
 use super::super::mazes;
-use super::super::output::{self, Existing};
-use crate::maze::Maze;
-use crate::maze::format::{self, Format};
-use crate::maze::generate::{GenSpec, GenSpecError, Kind};
+use super::super::output::{self, Existing, message};
+use wasmouse_core::maze::Maze;
+use wasmouse_core::maze::format::{self, Format};
+use wasmouse_core::maze::generate::{GenSpec, GenSpecError, Kind};
 
 const LONG_HELP: &str = "\
 Kinds:
@@ -149,7 +149,11 @@ fn unfit(args: &Args, error: &GenSpecError) -> Failure {
 
 /// The text of the only maze of a specification.
 fn only(spec: &GenSpec, format: Format) -> String {
-    let (_, maze) = spec.expand().next().expect("a specification has a maze");
+    let maze = spec
+        .expand()
+        .next()
+        .expect("a specification has a maze")
+        .generate();
     text(&maze, format)
 }
 
@@ -166,13 +170,13 @@ fn save_all(
     existing: Existing,
 ) -> Result<Exit, Failure> {
     std::fs::create_dir_all(folder).map_err(|error| {
-        Failure::host(format!(
+        Failure::internal(format!(
             "failed to make folder `{}`: {error}",
             folder.display()
         ))
     })?;
     let file = |name: &str| folder.join(file_name(name, format));
-    let mut files = spec.names().map(|name| file(&name));
+    let mut files = spec.expand().map(|maze| file(&maze.to_string()));
     if existing == Existing::Keep
         && let Some(file) = files.find(|file| file.exists())
     {
@@ -184,14 +188,15 @@ fn save_all(
     }
     let (count, folder) = (spec.count(), folder.display());
     let interrupted = interrupt::listen()?;
-    for (written, (name, maze)) in spec.expand().enumerate() {
+    for (written, generated) in spec.expand().enumerate() {
+        let (name, maze) = (generated.to_string(), generated.generate());
         if interrupted.load(Ordering::Relaxed) {
-            tell!("interrupted: wrote {written} of {count} mazes to {folder}");
+            message!("interrupted: wrote {written} of {count} mazes to {folder}");
             return Ok(Exit::Interrupted);
         }
         output::save(&file(&name), text(&maze, format).as_bytes(), existing)?;
     }
-    tell!("wrote {count} mazes to {folder}");
+    message!("wrote {count} mazes to {folder}");
     Ok(Exit::Success)
 }
 

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use super::super::exit::Exit;
 use super::super::failure::Failure;
 use super::super::mazes::{self, Legality, NamedMaze};
-use super::super::output::{self, Existing};
+use super::super::output::{self, Existing, message};
 use super::super::terminal;
-use crate::maze::{Metric, distances_to_goal, shortest_path};
 use crate::report::picture::{Charset, Picture, TextStyle};
+use wasmouse_core::maze::{Metric, distances_to_goal, shortest_path};
 
 const LONG_HELP: &str = "\
 In the drawing S is the start and G a goal cell. On a path, a filled circle (*
@@ -97,7 +97,7 @@ enum ColorChoice {
 
 /// Runs the command.
 pub fn run(args: Args) -> Result<Exit, Failure> {
-    let mazes = mazes::load(&args.mazes, Legality::from_flag(args.lenient))?;
+    let mazes = mazes::load_all(&args.mazes, Legality::from_flag(args.lenient))?;
     match &args.svg {
         Some(file) => save_svg(&mazes, file, &args)?,
         None => output::print(&texts(&mazes, &args))?,
@@ -155,7 +155,7 @@ fn picture(named: &NamedMaze, args: &Args) -> Picture {
     if let Some(path) = path {
         picture.set_path(&path);
     } else if !matches!(args.path, PathChoice::None) {
-        tell!("warning: maze `{}` has no way to the goal", named.name);
+        message!("warning: maze `{}` has no way to the goal", named.name);
     }
     if let Some(metric) = args.numbers {
         picture.set_numbers(&distances_to_goal(maze, metric.into()));

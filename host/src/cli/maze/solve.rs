@@ -2,13 +2,15 @@
 
 use std::fmt::Write as _;
 
+use wasmouse_core::game::{GameRules, Score};
+use wasmouse_core::maze::{Metric, Path, shortest_path};
+
 use super::super::exit::Exit;
 use super::super::failure::Failure;
-use super::super::mazes::{self, Legality, NamedMaze};
+use super::super::mazes::{self, BadFiles, Legality};
 use super::super::output;
-use crate::maze::{Floor, Metric, Path, omniscient_floor, shortest_path};
-use crate::report::maze_solve::{MazeSolve, SolutionJson, SolvedMaze};
-use crate::sim::{Ruleset, Score};
+use crate::contest::ContestMaze;
+use crate::report::maze_solve::{MazeSolve, Solution as SolutionJson, SolvedMaze};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -20,13 +22,13 @@ Exit codes:
   0  every maze has a solution
   1  a maze has none";
 
-/// Find the optimal paths of mazes, in steps and in cells.
+/// Find the optimal paths of mazes, in steps and in cells
 ///
-/// A step drives up to three cells in a straight line, as the ruleset `udacity`
-/// has it. Among the paths with the fewest steps the one with the fewest cells
-/// is printed, and the other way round. The floor is the score of a robot that
-/// knows the maze: it drives the optimal path, resets, and drives it again. No
-/// robot can score lower.
+/// A step covers up to three cells in a straight line, as in the ruleset
+/// `udacity`. Of the paths with the fewest steps, the one with the fewest cells
+/// is printed, and vice versa. The oracle score is that of a robot that knows
+/// the maze: it drives the optimal path, resets, and drives it again. No robot
+/// can score lower.
 #[derive(clap::Args)]
 #[command(after_long_help = format!("{}\n\n{EXAMPLES}", mazes::SPECIFICATION_HELP))]
 pub struct Args {
@@ -44,17 +46,19 @@ pub struct Args {
     json: bool,
 }
 
-/// The optimal ways to the goal of one maze.
+/// The optimal paths to the goal of one maze.
 struct Solution {
     fewest_steps: Path,
     fewest_cells: Path,
-    floor: Floor,
-    score: Score,
+    oracle: Score,
 }
 
 /// Runs the command: all mazes are solved, also after one without a solution.
 pub fn run(args: Args) -> Result<Exit, Failure> {
-    let mazes = mazes::load(&args.mazes, Legality::from_flag(args.lenient))?;
+    let legality = Legality::from_flag(args.lenient);
+    let mazes = mazes::load(&args.mazes, legality, BadFiles::Fail)?;
+    let rules = GameRules::default();
+    let mazes: Vec<ContestMaze> = mazes.iter().map(|maze| maze.prepare(&rules)).collect();
     let solutions: Vec<Option<Solution>> = mazes.iter().map(solve).collect();
     output::print(&if args.json {
         json(&mazes, &solutions)
@@ -64,42 +68,35 @@ pub fn run(args: Args) -> Result<Exit, Failure> {
     Ok(if solutions.iter().all(Option::is_some) {
         Exit::Success
     } else {
-        Exit::No
+        Exit::CheckFailed
     })
 }
 
-fn solve(named: &NamedMaze) -> Option<Solution> {
-    let rules = Ruleset::default();
-    let steps = Metric::Steps {
-        longest_move: rules.longest_move,
-    };
-    let floor = omniscient_floor(&named.maze, rules.longest_move)?;
+fn solve(maze: &ContestMaze) -> Option<Solution> {
     Some(Solution {
-        fewest_steps: shortest_path(&named.maze, steps)?,
-        fewest_cells: shortest_path(&named.maze, Metric::Cells)?,
-        floor,
-        score: Score::new(
-            floor.speed_steps,
-            floor.exploration_steps,
-            rules.exploration_divisor,
-        ),
+        fewest_steps: shortest_path(&maze.maze, Metric::STEPS)?,
+        fewest_cells: shortest_path(&maze.maze, Metric::Cells)?,
+        oracle: maze.oracle?,
     })
 }
 
-fn listing(mazes: &[NamedMaze], solutions: &[Option<Solution>], brief: bool) -> String {
+fn listing(mazes: &[ContestMaze], solutions: &[Option<Solution>], brief: bool) -> String {
     let mut text = String::new();
     let mut line = |line: std::fmt::Arguments<'_>| {
         writeln!(text, "{line}").expect("writing to a string never fails");
     };
-    for (named, solution) in mazes.iter().zip(solutions) {
-        let name = &named.name;
+    for (maze, solution) in mazes.iter().zip(solutions) {
+        let name = &maze.name;
         let Some(solution) = solution else {
-            line(format_args!("{name}: no way leads to the goal"));
+            line(format_args!("{name}: the goal cannot be reached"));
             continue;
         };
         let (steps, cells) = (&solution.fewest_steps, &solution.fewest_cells);
-        let score = solution.score;
-        line(format_args!("{name}: {}, floor {score}", length(steps)));
+        let oracle = solution.oracle;
+        line(format_args!(
+            "{name}: {}, oracle score {oracle}",
+            length(steps)
+        ));
         if brief {
             continue;
         }
@@ -126,58 +123,56 @@ fn directions(path: &Path) -> String {
     moves.collect::<Vec<_>>().join(", ")
 }
 
-fn json(mazes: &[NamedMaze], solutions: &[Option<Solution>]) -> String {
-    let solved = mazes
-        .iter()
-        .zip(solutions)
-        .map(|(named, solution)| SolvedMaze {
-            maze: named.name.clone(),
-            dimension: named.maze.dimension(),
-            solution: solution.as_ref().map(|found| {
-                SolutionJson::new(
-                    &found.fewest_steps,
-                    &found.fewest_cells,
-                    found.floor,
-                    found.score,
-                )
-            }),
-        });
+fn json(mazes: &[ContestMaze], solutions: &[Option<Solution>]) -> String {
+    let solved = mazes.iter().zip(solutions).map(|(maze, solution)| {
+        let solution = solution.as_ref();
+        let json =
+            solution.map(|it| SolutionJson::new(&it.fewest_steps, &it.fewest_cells, it.oracle));
+        SolvedMaze::new(&maze.name, &maze.maze, json)
+    });
     MazeSolve::new(solved.collect()).to_json()
 }
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
+    use wasmouse_core::maze::{Maze, Walls};
+
     use super::*;
-    use crate::maze::{Maze, Walls};
+    use crate::contest::MazeSource;
 
     /// The official maze, and one without openings.
-    fn two() -> (Vec<NamedMaze>, Vec<Option<Solution>>) {
+    fn two() -> (Vec<ContestMaze>, Vec<Option<Solution>>) {
+        let names = ["test_maze_01".to_owned()];
         let mut mazes =
-            mazes::load(&["test_maze_01".to_owned()], Legality::Contest).expect("bundled");
+            mazes::load(&names, Legality::Contest, BadFiles::Fail).expect("a bundled maze");
         let closed = Maze::contest(Walls::closed(12)).expect("room for both");
-        mazes.push(NamedMaze {
+        mazes.push(MazeSource::Loaded {
             name: "closed".to_owned(),
-            maze: closed,
+            maze: Arc::new(closed),
         });
+        let rules = GameRules::default();
+        let mazes: Vec<ContestMaze> = mazes.iter().map(|maze| maze.prepare(&rules)).collect();
         let solutions = mazes.iter().map(solve).collect();
         (mazes, solutions)
     }
 
     #[test]
-    fn listings_have_optimum_floor_and_path() {
+    fn listings_have_optimum_oracle_score_and_path() {
         let (mazes, solutions) = two();
         assert_eq!(
             listing(&mazes, &solutions, false),
-            "test_maze_01: 17 steps, 30 cells, floor 17.600\n  \
+            "test_maze_01: 17 steps, 30 cells, oracle score 17.600\n  \
              fewest steps: up 2, right 1, down 2, right 3, up 2, right 2, down 1, right 1, \
              down 1, right 1, right 3, up 3, left 3, up 2, left 1, up 1, left 1\n  \
              fewest cells: the same path\n\
-             closed: no way leads to the goal\n"
+             closed: the goal cannot be reached\n"
         );
         assert_eq!(
             listing(&mazes, &solutions, true),
-            "test_maze_01: 17 steps, 30 cells, floor 17.600\n\
-             closed: no way leads to the goal\n"
+            "test_maze_01: 17 steps, 30 cells, oracle score 17.600\n\
+             closed: the goal cannot be reached\n"
         );
     }
 
@@ -186,7 +181,6 @@ mod tests {
         let (mazes, solutions) = two();
         let text = json(&mazes, &solutions);
         let value: serde_json::Value = serde_json::from_str(&text).expect("JSON");
-        assert_eq!(value["schema"], 1);
         let solution = &value["mazes"][0]["solution"];
         assert_eq!(solution["fewest_steps"]["steps"], 17);
         assert_eq!(
@@ -194,8 +188,7 @@ mod tests {
             serde_json::json!([0, 2])
         );
         assert_eq!(solution["fewest_cells"]["cells"], 30);
-        assert_eq!(solution["floor"]["exploration_steps"], 18);
-        assert_eq!(solution["floor"]["score"], "17.600");
+        assert_eq!(solution["oracle"]["thousandths"], 17600);
         assert!(value["mazes"][1]["solution"].is_null());
     }
 }

@@ -1,4 +1,4 @@
-//! [`Label`]: a short text of unknown origin that is safe to draw.
+//! [`Label`]: a short untrusted text that is safe to draw.
 
 use std::fmt;
 
@@ -43,8 +43,8 @@ impl fmt::Display for Label {
     }
 }
 
-/// A text of any length, made harmless in the same way as labels.
-pub(super) fn harmless(text: &str) -> String {
+/// A text of any length, with the same characters replaced as in labels.
+pub(super) fn replace_hostile(text: &str) -> String {
     text.chars().map(replaced).collect()
 }
 

@@ -1,4 +1,4 @@
-//! Pictures as SVG: self-contained, scalable, readable on light and dark ground.
+//! Pictures as SVG: self-contained, scalable, readable on a light and on a dark page.
 //!
 //! One file without scripts, fonts or links to anything. Colours are set in a
 //! style sheet that follows the reader's preference for light or dark. A title
@@ -7,8 +7,9 @@
 
 use std::fmt::Write as _;
 
-use super::{Mark, Picture, Wall};
-use crate::maze::{Cell, Heading};
+use wasmouse_core::maze::{Cell, Heading};
+
+use super::drawing::{Mark, Picture, Wall, cells};
 
 /// The side of a cell in SVG units.
 const CELL: u32 = 20;
@@ -43,7 +44,7 @@ impl Picture {
         self.dots(&mut svg);
         self.walls_of(Wall::Closed, "wall", &mut svg);
         self.perimeter(&mut svg);
-        self.way(&mut svg);
+        self.path_line(&mut svg);
         self.texts(&mut svg);
         self.robot_shape(&mut svg);
         svg.push_str("</svg>\n");
@@ -68,9 +69,9 @@ impl Picture {
         );
     }
 
-    /// What lies on the floor: start, goal, heat and paint.
+    /// What fills cells: start, goal, heat and paint.
     fn grounds(&self, svg: &mut String) {
-        for cell in super::cells(self.dimension) {
+        for cell in cells(self.dimension) {
             let Mark { paint, .. } = self.mark(cell);
             let heat = self.heat_level(cell, HEAT_LEVELS);
             if cell == self.start {
@@ -95,7 +96,7 @@ impl Picture {
 
     fn walls_of(&self, kind: Wall, class: &str, svg: &mut String) {
         let mut lines = String::new();
-        for cell in super::cells(self.dimension) {
+        for cell in cells(self.dimension) {
             let (x, y) = self.corner(cell);
             if self.wall_place(cell, Heading::Up).is_some() && self.wall(cell, Heading::Up) == kind
             {
@@ -128,7 +129,7 @@ impl Picture {
     }
 
     fn dots(&self, svg: &mut String) {
-        for cell in super::cells(self.dimension).filter(|&cell| self.is_unknown(cell)) {
+        for cell in cells(self.dimension).filter(|&cell| self.is_unknown(cell)) {
             let (x, y) = self.middle(cell);
             write(
                 svg,
@@ -137,7 +138,7 @@ impl Picture {
         }
     }
 
-    fn way(&self, svg: &mut String) {
+    fn path_line(&self, svg: &mut String) {
         if self.stops.len() < 2 {
             return;
         }
@@ -157,7 +158,7 @@ impl Picture {
     }
 
     fn texts(&self, svg: &mut String) {
-        for cell in super::cells(self.dimension) {
+        for cell in cells(self.dimension) {
             let Mark { number, label, .. } = self.mark(cell);
             let number = number.map(|number| number.to_string());
             let label = (!label.is_empty()).then(|| label.as_str());

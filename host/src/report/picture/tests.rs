@@ -1,7 +1,11 @@
 //! Drawings of one small maze, in every style.
 
+use wasmouse_core::maze::{
+    Area, Cell, Heading, Maze, Metric, distances_to_goal, format, shortest_path,
+};
+
+use super::drawing::cells;
 use super::*;
-use crate::maze::{Metric, distances_to_goal, format, shortest_path};
 
 /// A 4 x 4 maze with a wall of every shape and a free-standing post.
 const SMALL: &str = "\

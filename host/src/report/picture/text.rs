@@ -15,8 +15,10 @@
 //! `S` is the start and `G` a goal cell. Paint is the letter of its colour, after
 //! a colon when the cell has other content.
 
-use super::{Picture, Wall};
-use crate::maze::{Cell, Heading};
+use wasmouse_core::maze::{Cell, Heading};
+
+use super::drawing::{Picture, Wall, cells};
+use super::paint::Paint;
 
 /// Which characters a picture is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -217,7 +219,7 @@ impl<'a> Canvas<'a> {
 /// What stands in each cell, by cell index.
 fn contents(picture: &Picture, charset: Charset, glyphs: &Glyphs) -> Vec<Content> {
     let trail = glyphs_of_path(picture, glyphs);
-    super::cells(picture.dimension)
+    cells(picture.dimension)
         .zip(trail)
         .map(|(cell, path)| content(picture, charset, glyphs, cell, path))
         .collect()
@@ -259,7 +261,7 @@ fn content(
     let ansi = robot.map(|_| ROBOT_ANSI).or(path_ansi);
     Content {
         text,
-        ansi: mark.paint.map(super::Paint::ansi).or(ansi),
+        ansi: mark.paint.map(Paint::ansi).or(ansi),
     }
 }
 

@@ -1,16 +1,16 @@
-//! Why a text is not a maze, and why a format cannot hold a maze.
+//! [`ParseError`]: why a text is not a maze. [`PrintError`]: why a format cannot store one.
 
 use std::fmt;
 
 use super::super::listed::Listed;
 use super::super::{Area, Cell, DIMENSIONS, Heading, MazeError};
-use super::{Format, TEXT_BYTES_MAX};
+use super::kind::{Format, TEXT_BYTES_MAX};
 
 /// Why a text is not a maze. Lines and columns count from 1, columns in characters.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ParseError {
     /// The text is longer than [`TEXT_BYTES_MAX`].
-    #[error("{bytes} bytes are more than any maze file has (at most {TEXT_BYTES_MAX})")]
+    #[error("the text has {bytes} bytes, the limit is {TEXT_BYTES_MAX}")]
     TooLong {
         /// Length of the text.
         bytes: usize,
@@ -18,25 +18,25 @@ pub enum ParseError {
     /// The text has no characters, or only blank ones.
     #[error("the text is empty")]
     Empty,
-    /// The first line begins none of the formats.
+    /// The first line belongs to no format.
     #[error(
-        "line 1: expected the dimension alone, a row of posts such as `o---o`, \
+        "line 1: expected the maze size on its own, a row of posts such as `o---o`, \
          the six numbers of a cell, or a row of blocks such as `11111`, found {found}"
     )]
     Unrecognized {
-        /// The beginning of the line, quoted.
+        /// The start of the line, quoted.
         found: String,
     },
-    /// Something else stands where the format wants something.
+    /// The format expects something else there.
     #[error("line {line}, column {column}: expected {expected}, found {found}")]
     Unexpected {
         /// The line.
         line: usize,
-        /// The column where `found` begins.
+        /// The column where `found` starts.
         column: usize,
-        /// What belongs there, in words.
+        /// What the format expects.
         expected: String,
-        /// What stands there, quoted.
+        /// The text there, quoted.
         found: String,
     },
     /// The text ends too early.
@@ -44,20 +44,20 @@ pub enum ParseError {
     Ended {
         /// The first line that is missing.
         line: usize,
-        /// What belongs there, in words.
+        /// What the format expects.
         expected: String,
     },
     /// The maze is smaller or larger than [`DIMENSIONS`].
     #[error(
-        "a width of {cells} is outside the {} to {} cells that mazes have",
+        "maze size {cells} is outside the supported range of {} to {} cells",
         DIMENSIONS.start(), DIMENSIONS.end()
     )]
     Dimension {
-        /// Width of the maze in cells.
+        /// The width of the maze, in cells.
         cells: usize,
     },
     /// Width and height differ.
-    #[error("the maze has {columns} columns and {rows} rows of cells; mazes are square")]
+    #[error("the maze has {columns} columns and {rows} rows of cells, but must be square")]
     NotSquare {
         /// Cells from left to right.
         columns: usize,
@@ -65,9 +65,9 @@ pub enum ParseError {
         rows: usize,
     },
     /// Cells that disagree about the wall between them, and gaps in the perimeter.
-    #[error("{} wrong {}: {}", .0.len(), sides(.0), Listed(.0))]
+    #[error("{} invalid {}: {}", .0.len(), edges(.0), Listed(.0))]
     Edges(
-        /// All of them, in the order of the cells. Messages name eight.
+        /// All of them, in the order of the cells. Messages name at most eight.
         Vec<Edge>,
     ),
     /// A second `S`.
@@ -83,38 +83,38 @@ pub enum ParseError {
     /// The cells marked `G` are not a filled rectangle.
     #[error("the {} goal cells do not fill a rectangle: {}", .0.len(), Listed(.0))]
     GoalShape(
-        /// All of them, from the top of the picture. Messages name eight.
+        /// All of them, from the top of the picture. Messages name at most eight.
         Vec<Cell>,
     ),
-    /// A cell has two lines.
+    /// A cell has more than one line.
     #[error("line {line}: second line for cell {cell}, the first is line {first}")]
     RepeatedCell {
         /// The line.
         line: usize,
         /// The cell.
         cell: Cell,
-        /// The line that had the cell already.
+        /// The first line of the cell.
         first: usize,
     },
-    /// Cells have no line.
-    #[error("no line for {}", Listed(.0))]
+    /// Some cells have no line.
+    #[error("missing cells: {}", Listed(.0))]
     MissingCells(
-        /// All of them, in the order of the cells. Messages name eight.
+        /// All of them, in the order of the cells. Messages name at most eight.
         Vec<Cell>,
     ),
-    /// The start or the goal does not fit.
+    /// The start or the goal is not possible there.
     #[error(transparent)]
     Maze(#[from] MazeError),
 }
 
-fn sides(edges: &[Edge]) -> &'static str {
+fn edges(edges: &[Edge]) -> &'static str {
     if edges.len() == 1 { "edge" } else { "edges" }
 }
 
-/// One side of a cell about which a file contradicts itself.
+/// A side of a cell that is not a valid part of a maze.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Edge {
-    /// The cell says one thing about the edge and its neighbour another.
+    /// The two cells of the edge disagree: one is open there, the other closed.
     Disagreement {
         /// The cell to the left of or below the edge.
         cell: Cell,
@@ -122,10 +122,10 @@ pub enum Edge {
         heading: Heading,
         /// The cell on the other side.
         neighbor: Cell,
-        /// Whether `cell` says that the edge is open; `neighbor` says the contrary.
+        /// Whether `cell` is open there; `neighbor` is the opposite.
         open: bool,
     },
-    /// The edge is a piece of the perimeter and open.
+    /// The edge is part of the perimeter and open.
     Perimeter {
         /// The cell inside.
         cell: Cell,
@@ -152,27 +152,27 @@ impl fmt::Display for Edge {
                 )
             }
             Self::Perimeter { cell, heading } => {
-                write!(f, "{cell} is open {heading} through the perimeter")
+                write!(f, "the perimeter is open at {cell}, {heading}")
             }
         }
     }
 }
 
-/// Why a format cannot hold a maze.
+/// Why a format cannot store a maze.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PrintError {
-    /// The start is not at (0, 0) and the format has no mark for it.
-    #[error("the {format} format cannot hold start {start}: it has no mark, the start is (0, 0)")]
+    /// The start is not (0, 0), and the format cannot mark it.
+    #[error("the {format} format cannot store start {start}: its start is always (0, 0)")]
     Start {
         /// The format.
         format: Format,
         /// The start of the maze.
         start: Cell,
     },
-    /// The goal is not in the centre and the format has no mark for it.
+    /// The goal is not in the centre, and the format cannot mark it.
     #[error(
-        "the {format} format cannot hold a goal of {} at {}: \
-         it has no mark, the goal is the centre ({} at {})",
+        "the {format} format cannot store a goal of {} at {}: \
+         its goal is always the centre ({} at {})",
         size(*.goal), .goal.origin(), size(*.center), .center.origin()
     )]
     Goal {
@@ -180,7 +180,7 @@ pub enum PrintError {
         format: Format,
         /// The goal of the maze.
         goal: Area,
-        /// The goal that the format stands for.
+        /// The goal that the format implies.
         center: Area,
     },
 }

@@ -1,13 +1,12 @@
 //! The `num` format of the micromouse simulator mms: one line per cell.
 //!
-//! A line is `x y north east south west`; x and y count from the bottom left,
-//! and 1 is a wall, 0 is none. (The legend in the README of mms swaps south and
-//! east; its example and its program have them in this order.) mms looks at the
-//! coordinates only, so the order of the lines is free; they are printed column
-//! by column, as mms does. Numbers are separated by one or more blanks.
+//! A line is `x y north east south west`, separated by one or more blanks; x and y count
+//! from the bottom left, 1 is a wall and 0 is none. (The legend in the README of mms swaps
+//! south and east; its example and its program have them in this order.) Every cell has
+//! exactly one line. The order of the lines is free, because mms looks at the coordinates
+//! only; they are printed column by column, as mms does.
 //!
-//! Every cell has exactly one line. The start is (0, 0) and the goal the
-//! centre; the format has no marks.
+//! The start is always (0, 0) and the goal the centre.
 
 use std::fmt::Write as _;
 
@@ -15,7 +14,7 @@ use super::super::{Cell, DIMENSIONS, Heading, Maze};
 use super::text::{Line, quoted, words};
 use super::{ParseError, edges};
 
-/// What separates the numbers of a line.
+/// The separators between the numbers of a line.
 const BLANKS: [char; 2] = [' ', '\t'];
 
 const COORDINATE_MAX: u8 = *DIMENSIONS.end() - 1;
@@ -30,7 +29,7 @@ const FIELDS: [&str; 6] = [
     "the west wall",
 ];
 
-/// What a line says.
+/// A parsed line.
 struct CellLine {
     cell: Cell,
     /// The number of the line, counted from 1.
@@ -61,7 +60,7 @@ pub(super) fn parse(lines: &[Line<'_>]) -> Result<Maze, ParseError> {
 
 fn cell_line(line: &Line<'_>) -> Result<CellLine, ParseError> {
     let mut numbers = [0; FIELDS.len()];
-    // A run of blanks is one separator, so the empty words in it are none.
+    // Several blanks are one separator, so empty words do not count.
     let mut words = words(line, BLANKS).filter(|word| !word.text.is_empty());
     for (place, number) in numbers.iter_mut().enumerate() {
         let max = if place < 2 { COORDINATE_MAX } else { 1 };
@@ -90,7 +89,7 @@ fn cell_line(line: &Line<'_>) -> Result<CellLine, ParseError> {
     })
 }
 
-/// The side of the square that the coordinates span.
+/// The size of the square that the coordinates span.
 fn dimension(cells: &[CellLine]) -> Result<u8, ParseError> {
     let columns = 1 + cells.iter().map(|line| line.cell.x).max().unwrap_or(0);
     let rows = 1 + cells.iter().map(|line| line.cell.y).max().unwrap_or(0);
@@ -108,7 +107,7 @@ fn dimension(cells: &[CellLine]) -> Result<u8, ParseError> {
     Ok(columns)
 }
 
-/// The values of all cells, or which cells have none.
+/// The values of all cells, or an error that lists the cells without one.
 fn complete(dimension: u8, places: &[Option<&CellLine>]) -> Result<Vec<u8>, ParseError> {
     let cells = (0..dimension).flat_map(|x| (0..dimension).map(move |y| Cell::new(x, y)));
     let missing: Vec<Cell> = cells

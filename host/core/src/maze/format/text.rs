@@ -1,10 +1,9 @@
-//! Lines, words and what error messages quote of them.
-//!
-//! What the formats share before any of them looks at its own grammar.
+//! Lines, words and quotes: what all formats share before their own grammar.
 
-use super::{ParseError, TEXT_BYTES_MAX};
+use super::error::ParseError;
+use super::kind::TEXT_BYTES_MAX;
 
-/// How many characters of the file a message quotes.
+/// The most characters of the file that a message quotes.
 const QUOTED_MAX: usize = 24;
 
 /// One line of a maze file, without its line ending.
@@ -25,9 +24,8 @@ impl<'a> Line<'a> {
         self.number
     }
 
-    /// The error that `expected` does not stand in this line, where `found` does.
-    ///
-    /// `before` is the number of characters of the line before that place.
+    /// The error that `found` is where `expected` should be, after `before` characters of
+    /// the line.
     pub(super) fn unexpected(
         &self,
         before: usize,
@@ -43,7 +41,7 @@ impl<'a> Line<'a> {
     }
 }
 
-/// The lines of a file, at least one; blank lines at the end are left out.
+/// The lines of a file, at least one, without blank lines at the end.
 pub(super) fn lines(text: &str) -> Result<Vec<Line<'_>>, ParseError> {
     if text.len() > TEXT_BYTES_MAX {
         return Err(ParseError::TooLong { bytes: text.len() });
@@ -91,7 +89,7 @@ pub(super) fn words<'a, const N: usize>(
 }
 
 impl Word<'_> {
-    /// The number that the word is, when it is one and at most `max`.
+    /// The word as a number of at most `max`; `None` if it is not one.
     pub(super) fn number(&self, max: u8) -> Option<u8> {
         let digits = !self.text.is_empty() && self.text.bytes().all(|b| b.is_ascii_digit());
         let number: u8 = digits.then(|| self.text.parse().ok())??;
@@ -104,8 +102,8 @@ impl Word<'_> {
     }
 }
 
-/// A piece of the file as messages quote it: shortened, with control and other
-/// invisible characters escaped, so that no file can play with a terminal.
+/// A piece of the file as messages quote it: shortened, with control and other invisible
+/// characters escaped, so that no file can send control sequences to a terminal.
 pub(super) fn quoted(text: &str) -> String {
     if text.is_empty() {
         return "nothing".to_owned();
@@ -122,7 +120,7 @@ pub(super) fn quoted(text: &str) -> String {
     shown
 }
 
-/// A character of a picture as messages quote it; `None` is past the line's end.
+/// A character of a row as messages quote it; `None` is past the end of the line.
 pub(super) fn quoted_character(character: Option<char>) -> String {
     match character {
         None => "the end of the line".to_owned(),

@@ -1,11 +1,11 @@
 //! Udacity text: the format of the contest's own tester.
 //!
-//! Line 1 is the dimension n. Then n lines follow, one per *column* from the
-//! left; each holds n comma-separated values from the bottom upward. A value is
-//! the sum of the open sides: 1 up, 2 right, 4 down, 8 left. A value of 0 is an
-//! enclosed cell. Blanks around a value are accepted, as the tester does.
+//! Line 1 is the size n. Then n lines follow, one per *column* from the left, each with n
+//! comma-separated values from the bottom up. A value is the sum of the open sides: 1 up,
+//! 2 right, 4 down, 8 left; 0 is an enclosed cell. Blanks around a value are accepted, as in
+//! the tester.
 //!
-//! The start is (0, 0) and the goal the centre; the format has no marks.
+//! The start is always (0, 0) and the goal the centre.
 
 use std::fmt::Write as _;
 
@@ -40,7 +40,7 @@ fn dimension(line: &Line<'_>) -> Result<u8, ParseError> {
     word.number(high)
         .filter(|dimension| DIMENSIONS.contains(dimension))
         .ok_or_else(|| {
-            let expected = format!("a dimension from {low} to {high}");
+            let expected = format!("a maze size from {low} to {high}");
             line.unexpected(word.before, expected, word.quoted())
         })
 }
@@ -59,14 +59,14 @@ fn column_values(line: &Line<'_>, count: usize, values: &mut Vec<u8>) -> Result<
         found += 1;
     }
     if found < count {
-        let expected = format!("{count} values, the line has {found}");
         let end = line.text().chars().count();
-        return Err(line.unexpected(end, expected, "the end of the line".to_owned()));
+        let found = format!("the end of the line after {found}");
+        return Err(line.unexpected(end, format!("{count} values"), found));
     }
     Ok(())
 }
 
-/// Ends without a newline, as the official files do.
+/// The text ends without a newline, as the official files do.
 pub(super) fn print(maze: &Maze) -> String {
     let dimension = maze.dimension();
     let mut text = dimension.to_string();

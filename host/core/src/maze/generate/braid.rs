@@ -1,18 +1,16 @@
 //! `braid`: long straights and diagonal staircases, most dead ends joined.
 //!
-//! Mazes drawn by people for contests look different from those of textbook
-//! algorithms: they tempt fast robots with straights, have diagonals made of
-//! alternating turns, offer several ways to the goal, have few dead ends, and
-//! at every post stands at least one wall. The three official mazes of the
-//! reports have walls on 82 % of the places that a maze without loops would
-//! use, and 9 to 11 dead ends. This generator aims at that.
+//! Mazes that people draw for contests differ from those of textbook algorithms: they have
+//! straights for fast robots, diagonals of alternating turns, several paths to the goal, few
+//! dead ends, and at least one wall at every post. The three official mazes of the reports
+//! have 82 % of the walls that a maze without loops would have, and 9 to 11 dead ends. This
+//! generator aims at such mazes.
 //!
-//! First a tree grows from the start by *runs*, straights or staircases, each
-//! going on from the last or branching off from a random earlier cell. Then dead
-//! ends are joined to a neighbour, straight ahead or to another dead end where
-//! possible. At last the entrance of the goal room moves to its far side. The
-//! tree reaches every cell outside the goal room and joining only removes walls,
-//! so all cells are connected wherever the entrance is.
+//! First, a tree grows from the start by *branches*, straights or staircases, each from the
+//! end of the last one or from a random earlier cell. Then dead ends are joined to a
+//! neighbour, if possible to another dead end or straight ahead. Finally, the entrance of the
+//! goal room moves to its far side. The tree reaches every cell outside the goal room, and
+//! joining only removes walls, so all cells are connected wherever the entrance is.
 
 use std::ops::Range;
 
@@ -20,18 +18,18 @@ use super::super::{Area, Cell, Heading, Maze, Metric, Turn, Walls, distances_fro
 use super::draft::{Draft, Edge};
 use super::draws::Draws;
 
-/// How long a straight is, in cells. Two in a row may make a longer one.
+/// The length of a straight, in cells. Two in a row may form a longer one.
 const STRAIGHT: Range<u32> = 2..6;
 
-/// How long a staircase is, in cells.
+/// The length of a staircase, in cells.
 const STAIRCASE: Range<u32> = 4..10;
 
-/// How often a run is a staircase and not a straight, in percent.
+/// How many branches are staircases, in percent. The others are straights.
 const STAIRCASES: u32 = 60;
 
-/// How often a new run branches off from an earlier cell although the last run
-/// could go on, in percent.
-const BRANCHES: u32 = 35;
+/// How many branches start from an earlier cell although the last branch could continue, in
+/// percent.
+const FORKS: u32 = 35;
 
 /// How many dead ends are joined, in percent.
 const JOINED: u32 = 75;
@@ -45,11 +43,11 @@ pub(super) fn walls(dimension: u8, draws: &mut Draws) -> Walls {
     draft.into_walls()
 }
 
-/// A shape that a run keeps to.
+/// The shape of a branch.
 #[derive(Clone, Copy)]
 enum Shape {
     Straight,
-    /// Turns at every cell, next time in this direction.
+    /// Turns at every cell, next in this direction.
     Staircase(Turn),
 }
 
@@ -72,7 +70,7 @@ impl Shape {
         range.start + draws.below(range.end - range.start)
     }
 
-    /// The next heading of the run and the shape after it.
+    /// The next heading of the branch and the shape after it.
     const fn next(self, heading: Heading) -> (Heading, Self) {
         match self {
             Self::Straight => (heading, Self::Straight),
@@ -90,31 +88,31 @@ fn grow(draft: &mut Draft, draws: &mut Draws) {
     let mut tip = Cell::new(0, 1);
     tree.add(tip);
     loop {
-        let stuck = tree.ways_on(draft, tip).is_empty();
-        if stuck || draws.percent(BRANCHES) {
-            let Some(branch) = tree.branch(draft, draws) else {
+        let stuck = tree.exits(draft, tip).is_empty();
+        if stuck || draws.percent(FORKS) {
+            let Some(fork) = tree.fork(draft, draws) else {
                 return;
             };
-            tip = branch;
+            tip = fork;
         }
-        tip = run(draft, &mut tree, tip, draws);
+        tip = branch(draft, &mut tree, tip, draws);
     }
 }
 
-/// Carves one run from `tip` and returns where it ends.
-fn run(draft: &mut Draft, tree: &mut Tree, tip: Cell, draws: &mut Draws) -> Cell {
-    let Some((mut heading, _)) = draws.pick(&tree.ways_on(draft, tip)) else {
+/// Adds one branch from `tip` and returns its end.
+fn branch(draft: &mut Draft, tree: &mut Tree, tip: Cell, draws: &mut Draws) -> Cell {
+    let Some((mut heading, _)) = draws.pick(&tree.exits(draft, tip)) else {
         return tip;
     };
     let mut tip = tip;
     let mut shape = Shape::draw(draws);
     for _ in 0..shape.length(draws) {
-        let ways = tree.ways_on(draft, tip);
-        let Some(&(_, edge)) = ways.iter().find(|&&(way, _)| way == heading) else {
+        let exits = tree.exits(draft, tip);
+        let Some(&(_, edge)) = exits.iter().find(|&&(exit, _)| exit == heading) else {
             break;
         };
         draft.set(edge, true);
-        tip = tip.step(heading).expect("a way on stays in the maze");
+        tip = tip.step(heading).expect("an exit leads to a cell");
         tree.add(tip);
         (heading, shape) = shape.next(heading);
     }
@@ -125,12 +123,12 @@ fn run(draft: &mut Draft, tree: &mut Tree, tip: Cell, draws: &mut Draws) -> Cell
 struct Tree {
     reached: Vec<bool>,
     dimension: u8,
-    /// Reached cells that may still have ways on.
+    /// Reached cells that may still have exits.
     active: Vec<Cell>,
 }
 
 impl Tree {
-    /// Before any growth. Start and goal count as reached: their edges are final.
+    /// The empty tree. Start and goal count as reached, because their edges are final.
     fn new(walls: &Walls) -> Self {
         let dimension = walls.dimension();
         let mut tree = Self {
@@ -151,32 +149,32 @@ impl Tree {
         self.active.push(cell);
     }
 
-    /// The free edges that lead from `cell` to cells not reached yet.
-    fn ways_on(&self, draft: &Draft, cell: Cell) -> Vec<(Heading, Edge)> {
-        let mut ways = draft.free_edges_of(cell);
-        ways.retain(|&(heading, _)| {
+    /// The free edges from `cell` to cells that are not reached yet.
+    fn exits(&self, draft: &Draft, cell: Cell) -> Vec<(Heading, Edge)> {
+        let mut exits = draft.free_edges_of(cell);
+        exits.retain(|&(heading, _)| {
             let next = cell.step(heading).expect("a free edge has two cells");
             !self.reached[draft.walls().index(next)]
         });
-        ways
+        exits
     }
 
-    /// A random reached cell with a way on; `None` when all cells are reached.
-    fn branch(&mut self, draft: &Draft, draws: &mut Draws) -> Option<Cell> {
+    /// A random reached cell with an exit; `None` if all cells are reached.
+    fn fork(&mut self, draft: &Draft, draws: &mut Draws) -> Option<Cell> {
         while !self.active.is_empty() {
             let place = draws.index(self.active.len());
             let cell = self.active[place];
-            if !self.ways_on(draft, cell).is_empty() {
+            if !self.exits(draft, cell).is_empty() {
                 return Some(cell);
             }
-            // Never again has a way on, because reached cells stay reached.
+            // It never has an exit again, because reached cells stay reached.
             self.active.swap_remove(place);
         }
         None
     }
 }
 
-/// Opens a wall of most dead ends.
+/// Opens one wall of most dead ends.
 fn join_dead_ends(draft: &mut Draft, draws: &mut Draws) {
     let mut cells: Vec<Cell> = draft.walls().cells().collect();
     draws.shuffle(&mut cells);
@@ -184,23 +182,22 @@ fn join_dead_ends(draft: &mut Draft, draws: &mut Draws) {
         let Some(open) = only_exit(draft.walls(), cell) else {
             continue;
         };
-        let mut ways = draft.free_edges_of(cell);
-        ways.retain(|&(_, edge)| !draft.is_open(edge) && posts_keep_a_wall(draft, edge));
-        if ways.is_empty() || !draws.percent(JOINED) {
+        let mut edges = draft.free_edges_of(cell);
+        edges.retain(|&(_, edge)| !draft.is_open(edge) && posts_keep_a_wall(draft, edge));
+        if edges.is_empty() || !draws.percent(JOINED) {
             continue;
         }
-        let best = ways.iter().map(|&way| merit(draft, cell, open, way)).max();
-        ways.retain(|&way| Some(merit(draft, cell, open, way)) == best);
-        let way = draws.pick(&ways);
-        let (_, edge) = way.expect("the best of some ways is one of them");
+        let best = edges.iter().map(|&it| merit(draft, cell, open, it)).max();
+        edges.retain(|&it| Some(merit(draft, cell, open, it)) == best);
+        let (_, edge) = draws.pick(&edges).expect("one of the edges is the best");
         draft.set(edge, true);
     }
 }
 
-/// Moves the entrance to where the way to it is longest, so that robots get to
-/// see some of the maze. Of equally long ways the first entrance is taken.
+/// Moves the entrance to where the path to it is longest, so that robots have to explore
+/// more of the maze. Of equally long paths, the first entrance is taken.
 fn hide_entrance(draft: &mut Draft) {
-    let maze = Maze::contest(draft.walls().clone()).expect("room for start and goal");
+    let maze = Maze::contest(draft.walls().clone()).expect("start and goal fit");
     let distances = distances_from(&maze, maze.start(), Metric::Cells);
     let goal = maze.goal();
     let distance = |edge: &Edge| {
@@ -224,7 +221,7 @@ fn only_exit(walls: &Walls, cell: Cell) -> Option<Heading> {
     only.then(|| Heading::ALL[open])
 }
 
-/// Two dead ends in one go are best, then a straight.
+/// Joining two dead ends is best, then going straight on.
 fn merit(draft: &Draft, cell: Cell, exit: Heading, (heading, _): (Heading, Edge)) -> u8 {
     let next = cell.step(heading).expect("a free edge has two cells");
     match only_exit(draft.walls(), next) {
@@ -234,14 +231,14 @@ fn merit(draft: &Draft, cell: Cell, exit: Heading, (heading, _): (Heading, Edge)
     }
 }
 
-/// Whether both posts of a wall have another wall.
+/// Whether both posts of the wall at `edge` have another wall.
 fn posts_keep_a_wall(draft: &Draft, edge: Edge) -> bool {
     edge.posts()
         .into_iter()
         .all(|post| walls_at(draft.walls(), post) > 1)
 }
 
-/// How many walls stand at a post; a post of the perimeter has plenty.
+/// The number of walls at a post. A post of the perimeter counts as having 4.
 fn walls_at(walls: &Walls, post: Cell) -> usize {
     let n = walls.dimension();
     if post.x == 0 || post.y == 0 || post.x == n || post.y == n {

@@ -1,17 +1,16 @@
 //! `division`: Minnett's "modified version of the Recursive Division" algorithm.
 //!
-//! Starts from a blank maze that has only its start and its goal room, then
-//! takes turns between horizontal and vertical stretches: each is four edges in
-//! a row of which nothing is decided yet, and becomes three walls and one
-//! opening (Minnett 2016, section 1.4.1). Recursive division proper draws
-//! stretches across whole chambers, which makes long corridors with few
+//! The algorithm starts from a maze with no walls but those of the start and the goal room,
+//! and alternates between horizontal and vertical stretches. A stretch is four undecided edges
+//! in a row; it becomes three walls and one opening (Minnett 2016, section 1.4.1). Recursive
+//! division proper builds stretches across whole chambers, which gives long corridors with few
 //! openings; stretches of four give more varied mazes.
 //!
-//! The report does not say how its stretches never cut a cell off, nor when it
-//! stops. Here a stretch is only built where its walls close no ring of walls:
-//! cells stay connected exactly as long as no ring stands. It ends when no such
-//! stretch is left, and edges that never were in one stay open. What the author's
-//! own program does instead is the kind `stretches`.
+//! The report does not define how its stretches keep all cells connected, nor when it stops.
+//! Here, a stretch is built only if its walls close no ring of walls, because cells are
+//! connected exactly as long as there is no ring. The algorithm ends when no such stretch is
+//! left; edges that were in no stretch stay open. The kind `stretches` is what the author's own
+//! program does instead.
 
 use super::super::{Cell, Heading, Walls};
 use super::draft::{Draft, Edge};
@@ -21,8 +20,8 @@ use super::sets::Sets;
 /// Edges in a stretch.
 const STRETCH: u8 = 4;
 
-/// A row of edges. What is decided only grows, so a stretch that cannot be
-/// built once never can be, and each is looked at once.
+/// Edges in a row. Decided edges stay decided, so a stretch that cannot be built once never
+/// can be, and each is tried once.
 type Stretch = [Edge; STRETCH as usize];
 
 /// The walls of one maze.
@@ -46,8 +45,8 @@ pub(super) fn walls(dimension: u8, draws: &mut Draws) -> Walls {
     draft.into_walls()
 }
 
-/// All rows of four edges at that side of their cells: up for horizontal walls,
-/// right for vertical ones.
+/// All rows of four edges on that side of their cells: up for horizontal walls, right for
+/// vertical ones.
 fn stretches(dimension: u8, side: Heading) -> Vec<Stretch> {
     let mut stretches = Vec::new();
     for line in 0..dimension - 1 {
@@ -65,8 +64,8 @@ fn stretches(dimension: u8, side: Heading) -> Vec<Stretch> {
     stretches
 }
 
-/// Makes three walls and an opening of a stretch; false when one of its edges
-/// is decided or every choice of the opening would close a ring.
+/// Turns a stretch into three walls and an opening; false if one of its edges is decided or if
+/// every choice of the opening would close a ring.
 fn build(draft: &mut Draft, posts: &mut Posts, stretch: Stretch, draws: &mut Draws) -> bool {
     if !stretch.iter().all(|&edge| draft.is_free(edge)) {
         return false;
@@ -87,7 +86,7 @@ fn build(draft: &mut Draft, posts: &mut Posts, stretch: Stretch, draws: &mut Dra
     false
 }
 
-/// Which posts are connected by walls. The perimeter is one connected post.
+/// Which posts are connected by walls. The perimeter counts as one post.
 #[derive(Clone)]
 struct Posts {
     sets: Sets,
@@ -109,7 +108,7 @@ impl Posts {
         posts
     }
 
-    /// Builds a wall; false when its ends were connected, so that it closes a ring.
+    /// Builds a wall; false if its ends were connected, so that it closes a ring.
     fn connect(&mut self, edge: Edge) -> bool {
         let [a, b] = edge.posts().map(|post| self.index(post));
         self.sets.join(a, b)

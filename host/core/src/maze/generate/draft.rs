@@ -1,10 +1,10 @@
-//! [`Draft`]: a contest maze whose start and goal room are final and whose
-//! other edges are still free.
+//! [`Draft`]: a contest maze whose start and goal room are final and whose other edges are
+//! free.
 
 use super::super::{Area, Cell, Heading, Walls};
 use super::draws::Draws;
 
-/// The edge between two cells, named by the cell on its left or below it.
+/// The edge between two cells, named by the cell to its left or below it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Edge {
     cell: Cell,
@@ -13,8 +13,8 @@ pub(super) struct Edge {
 }
 
 impl Edge {
-    /// The edge on that side of `cell`; for [`Heading::Down`] and
-    /// [`Heading::Left`] the cell must not lie at that border of the maze.
+    /// The edge on that side of `cell`, which must not be the perimeter for
+    /// [`Heading::Down`] and [`Heading::Left`].
     pub(super) fn new(cell: Cell, heading: Heading) -> Self {
         match heading {
             Heading::Up | Heading::Right => Self { cell, heading },
@@ -33,7 +33,7 @@ impl Edge {
         [self.cell, other.expect("an edge has a cell on both sides")]
     }
 
-    /// The direction in which a wall on it would lie: up or right.
+    /// The direction of a wall on it: up or right.
     pub(super) const fn along(self) -> Heading {
         match self.heading {
             Heading::Up | Heading::Down => Heading::Right,
@@ -41,18 +41,17 @@ impl Edge {
         }
     }
 
-    /// The two edges across the post at its end in that direction, and the next
-    /// edge in line. `None` past the column or row 0; the caller knows where the
-    /// maze ends on the other sides.
-    pub(super) fn past(self, way: Heading) -> Option<([Self; 2], Self)> {
+    /// The two edges across the post at its end in that direction, and the next edge in line.
+    /// `None` past column or row 0; the caller checks the other sides of the maze.
+    pub(super) fn past(self, direction: Heading) -> Option<([Self; 2], Self)> {
         let next = Self {
-            cell: self.cell.step(way)?,
+            cell: self.cell.step(direction)?,
             ..self
         };
-        Some((self.cells().map(|cell| Self::new(cell, way)), next))
+        Some((self.cells().map(|cell| Self::new(cell, direction)), next))
     }
 
-    /// The posts at both ends, as the cells to whose lower left they stand.
+    /// The posts at both ends, each as the cell whose lower left corner it is.
     pub(super) fn posts(self) -> [Cell; 2] {
         let Cell { x, y } = self.cell;
         let far = Cell::new(x + 1, y + 1);
@@ -63,12 +62,12 @@ impl Edge {
     }
 }
 
-/// The start and the goal of a contest maze and freedom for all else.
+/// A contest maze under construction.
 ///
-/// Final from the beginning: the start is open at the top only, the goal room
-/// has no inner walls and exactly one entrance, at a random one of its eight
-/// outer edges (which [`Draft::move_entrance`] may change). An edge that is not
-/// final can be set once; that makes it final.
+/// The start and the goal room are final: the start is open at the top only, the goal room has
+/// no inner walls and exactly one entrance, at a random one of its eight outer edges (which
+/// [`Draft::move_entrance`] may change). Other edges are free until they are set, which makes
+/// them final.
 pub(super) struct Draft {
     walls: Walls,
     /// By cell index: bits of [`Heading::Up`] and [`Heading::Right`].
@@ -78,7 +77,7 @@ pub(super) struct Draft {
 }
 
 impl Draft {
-    /// A draft whose free edges all are open, or all closed.
+    /// A draft whose free edges are those of `blank`, all open or all closed.
     pub(super) fn new(blank: Walls, draws: &mut Draws) -> Self {
         let dimension = blank.dimension();
         let mut draft = Self {
@@ -98,7 +97,7 @@ impl Draft {
             for heading in Heading::ALL {
                 let edge = Edge::new(cell, heading);
                 if edge.cells().into_iter().all(|cell| goal.contains(cell)) {
-                    // Met from both of its cells, and final from the first.
+                    // Both of its cells come by, and the first one makes it final.
                     if self.is_free(edge) {
                         self.set(edge, true);
                     }
@@ -113,75 +112,64 @@ impl Draft {
         }
     }
 
-    /// Where the entrance of the goal room could be, by goal cell.
+    /// The possible entrances of the goal room, by goal cell.
     pub(super) fn entrances(&self) -> Vec<Edge> {
         self.border.clone()
     }
 
-    /// Opens the goal room there and nowhere else, although its edges are final.
-    ///
-    /// # Panics
-    ///
-    /// When the edge is none of [`Draft::entrances`].
+    /// Moves the entrance of the goal room, although its edges are final.
     pub(super) fn move_entrance(&mut self, entrance: Edge) {
-        assert!(
-            self.border.contains(&entrance),
-            "{entrance:?} is no entrance"
-        );
         for &edge in &self.border {
             self.walls.set(edge.cell, edge.heading, edge == entrance);
         }
     }
 
-    /// The walls as they are now.
+    /// The walls so far.
     pub(super) const fn walls(&self) -> &Walls {
         &self.walls
     }
 
-    /// The walls, finished.
+    /// The finished walls.
     pub(super) fn into_walls(self) -> Walls {
         self.walls
     }
 
-    /// Whether nobody has decided about that edge yet.
+    /// Whether the edge is not final yet.
     pub(super) fn is_free(&self, edge: Edge) -> bool {
         self.finals[self.walls.index(edge.cell)] & edge.heading.bit() == 0
     }
 
-    /// Decides about a free edge.
+    /// Opens or closes a free edge for good.
     ///
     /// # Panics
     ///
-    /// When the edge is final, because that would break a rule of the contest.
+    /// If the edge is final: changing it could break a contest rule.
     pub(super) fn set(&mut self, edge: Edge, open: bool) {
         self.change(edge, open);
         let index = self.walls.index(edge.cell);
         self.finals[index] |= edge.heading.bit();
     }
 
-    /// Opens or closes a free edge without making it final, for a generator that
-    /// may come back to it.
+    /// Opens or closes a free edge without making it final, for a generator that may change
+    /// it again.
     ///
     /// # Panics
     ///
-    /// When the edge is final, because that would break a rule of the contest.
+    /// If the edge is final: changing it could break a contest rule.
     pub(super) fn change(&mut self, edge: Edge, open: bool) {
         assert!(self.is_free(edge), "{edge:?} is final");
         self.walls.set(edge.cell, edge.heading, open);
     }
 
-    /// Whether nothing stands on the edge.
+    /// Whether there is no wall on the edge.
     pub(super) fn is_open(&self, edge: Edge) -> bool {
         self.walls.is_open(edge.cell, edge.heading)
     }
 
     /// All edges between two cells, in the order of the cells.
     pub(super) fn edges(&self) -> Vec<Edge> {
-        let walls = &self.walls;
-        walls
-            .cells()
-            .flat_map(|cell| [(cell, Heading::Up), (cell, Heading::Right)])
-            .filter(|&(cell, heading)| walls.neighbor(cell, heading).is_some())
+        let edges = self.walls.edges();
+        edges
             .map(|(cell, heading)| Edge { cell, heading })
             .collect()
     }
@@ -202,7 +190,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_edge_has_one_name() {
+    fn an_edge_is_the_same_from_both_cells() {
         let cell = Cell::new(3, 4);
         for heading in Heading::ALL {
             let other = cell.step(heading).expect("inside");
@@ -216,36 +204,39 @@ mod tests {
         assert_eq!(up.posts(), [Cell::new(3, 5), Cell::new(4, 5)]);
         let up_at = |x, y| Edge::new(Cell::new(x, y), Heading::Up);
         let right_at = |x, y| Edge::new(Cell::new(x, y), Heading::Right);
-        for (edge, way, expected) in [
-            (
-                up,
-                Heading::Right,
-                ([right_at(3, 4), right_at(3, 5)], up_at(4, 4)),
-            ),
-            (
-                up,
-                Heading::Left,
-                ([right_at(2, 4), right_at(2, 5)], up_at(2, 4)),
-            ),
-            (
-                right,
-                Heading::Up,
-                ([up_at(3, 4), up_at(4, 4)], right_at(3, 5)),
-            ),
-            (
-                right,
-                Heading::Down,
-                ([up_at(3, 3), up_at(4, 3)], right_at(3, 3)),
-            ),
-        ] {
-            assert!([edge.along(), edge.along().opposite()].contains(&way));
-            assert_eq!(edge.past(way), Some(expected));
-        }
+        let check = |edge: Edge, direction, across, next| {
+            assert!([edge.along(), edge.along().opposite()].contains(&direction));
+            assert_eq!(edge.past(direction), Some((across, next)));
+        };
+        check(
+            up,
+            Heading::Right,
+            [right_at(3, 4), right_at(3, 5)],
+            up_at(4, 4),
+        );
+        check(
+            up,
+            Heading::Left,
+            [right_at(2, 4), right_at(2, 5)],
+            up_at(2, 4),
+        );
+        check(
+            right,
+            Heading::Up,
+            [up_at(3, 4), up_at(4, 4)],
+            right_at(3, 5),
+        );
+        check(
+            right,
+            Heading::Down,
+            [up_at(3, 3), up_at(4, 3)],
+            right_at(3, 3),
+        );
         assert_eq!(right_at(3, 0).past(Heading::Down), None);
     }
 
     #[test]
-    fn start_and_goal_are_final_and_all_else_is_free() {
+    fn only_start_and_goal_are_final() {
         let draft = Draft::new(Walls::open(12), &mut Draws::new("test", 12, 1));
         let edges = draft.edges();
         assert_eq!(edges.len(), 2 * 12 * 11);

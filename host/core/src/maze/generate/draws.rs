@@ -1,19 +1,17 @@
-//! [`Draws`]: the only source of chance of the generators.
+//! [`Draws`]: the only source of randomness of the generators.
 //!
-//! Maps ChaCha8 output to numbers with code of its own, because the helper
-//! functions of random number libraries may change what they return from one
-//! version to the next, and a published maze must stay what it is.
+//! It maps the output of ChaCha8 to numbers itself. The helper functions of random number
+//! libraries may return other numbers in a later version, and published mazes must not change.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// A stream of random numbers that depends on nothing but its seed.
+/// A stream of random numbers that depends only on its key.
 pub(super) struct Draws(ChaCha8Rng);
 
 impl Draws {
-    /// The stream for one maze. The 32 bytes of the ChaCha key are the seed
-    /// (8 bytes, little-endian), the dimension (1 byte), and the kind's name
-    /// padded with zeros.
+    /// The stream for one maze. The 32 bytes of the ChaCha key are the seed (8 bytes, little
+    /// endian), the size (1 byte), and the name of the kind, padded with zeros.
     pub(super) fn new(kind: &str, dimension: u8, seed: u64) -> Self {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&seed.to_le_bytes());
@@ -22,15 +20,14 @@ impl Draws {
         Self(ChaCha8Rng::from_seed(key))
     }
 
-    /// A number below `bound`, all equally likely.
+    /// A uniform random number from 0 to `bound` - 1.
     ///
-    /// Multiplies instead of dividing and rejects the few values that would
-    /// make some results likelier (Lemire, "Fast random integer generation in
-    /// an interval", 2019).
+    /// Multiplies instead of dividing, and rejects the few values that would make some results
+    /// more likely (Lemire, "Fast random integer generation in an interval", 2019).
     ///
     /// # Panics
     ///
-    /// When `bound` is 0.
+    /// If `bound` is 0.
     pub(super) fn below(&mut self, bound: u32) -> u32 {
         assert!(bound > 0, "no number is below 0");
         let unfair = bound.wrapping_neg() % bound;
@@ -48,18 +45,18 @@ impl Draws {
         self.below(100) < percent
     }
 
-    /// A place in a list of `len` elements, which must not be empty.
+    /// A random index of a list of `len` elements, at least 1.
     pub(super) fn index(&mut self, len: usize) -> usize {
         let len = u32::try_from(len).expect("lists of edges and cells are short");
         self.below(len) as usize
     }
 
-    /// One of the items; `None` when there are none, without a draw.
+    /// A random item; `None` for no items, without a draw.
     pub(super) fn pick<T: Copy>(&mut self, items: &[T]) -> Option<T> {
         (!items.is_empty()).then(|| items[self.index(items.len())])
     }
 
-    /// Puts the items in a random order (Fisher and Yates).
+    /// Shuffles the items (Fisher and Yates).
     pub(super) fn shuffle<T>(&mut self, items: &mut [T]) {
         for last in (1..items.len()).rev() {
             let other = self.index(last + 1);
@@ -73,7 +70,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn all_numbers_below_the_bound_appear_about_equally_often() {
+    fn numbers_below_the_bound_are_uniform() {
         let mut draws = Draws::new("test", 12, 1);
         let mut counts = [0_u32; 7];
         for _ in 0..7_000 {
@@ -95,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn streams_differ_by_kind_dimension_and_seed() {
+    fn streams_differ_by_kind_size_and_seed() {
         let first = |kind, dimension, seed| Draws::new(kind, dimension, seed).below(u32::MAX);
         let base = first("tree", 12, 1);
         assert_eq!(base, first("tree", 12, 1));

@@ -1,8 +1,8 @@
-//! [`Sets`]: which things are connected, as disjoint sets.
+//! [`Sets`]: disjoint sets, for cells or posts that are connected.
 
-/// A partition of the numbers below a size (union-find with path halving).
+/// A partition of the numbers from 0 to `size` - 1: union-find with path halving.
 ///
-/// Without ranks: sets this small stay shallow from path halving alone.
+/// There are no ranks, because path halving alone keeps sets of this size shallow.
 #[derive(Clone)]
 pub(super) struct Sets {
     parents: Vec<u16>,
@@ -17,7 +17,7 @@ impl Sets {
         }
     }
 
-    /// Unites the sets of two numbers; false when they were one already.
+    /// Unites the sets of two numbers; false if they were in the same set.
     pub(super) fn join(&mut self, a: usize, b: usize) -> bool {
         let (a, b) = (self.root(a), self.root(b));
         self.parents[usize::from(a)] = b;

@@ -1,23 +1,22 @@
-//! [`GenSpec`]: `gen:KIND[,loops=PERCENT]:DIMENSION:SEED`, the name of one
-//! generated maze or of many.
+//! [`GenSpec`]: `gen:KIND[,loops=PERCENT]:SIZE:SEED`, the name of one or more generated mazes.
 
 use std::fmt;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 use super::super::Maze;
-use super::{GENERATED_DIMENSIONS, Kind, generate};
+use super::kind::{GENERATED_DIMENSIONS, Kind};
 
-/// The most mazes that one specification may stand for.
+/// The most mazes of one specification.
 pub const GENERATED_MAX: u64 = 100_000;
 
-/// One or more generated mazes: a kind, dimensions and seeds.
+/// One or more generated mazes: a kind, sizes and seeds.
 ///
-/// Written as `gen:KIND:DIMENSION:SEED`. The kind is `division`, `tree`, `braid`
-/// or `stretches`; a tree takes `,loops=PERCENT`, 0 to 100, default 12. The
-/// dimension is an even number of cells from 12 to 20, the seed any number below
-/// 2^64. Both may be inclusive ranges, `12..=20` or `1..=100`, of which all even
-/// dimensions and all seeds are meant: at most [`GENERATED_MAX`] mazes.
+/// The text form is `gen:KIND:SIZE:SEED`. The kind is `division`, `tree`, `braid` or
+/// `stretches`; `tree` takes `,loops=PERCENT`, 0 to 100, default 12. The size is an even number
+/// of cells from 12 to 20, the seed a number below 2^64. Both may be inclusive ranges such as
+/// `12..=20` or `1..=100`, which stand for all even sizes and all seeds in them: at most
+/// [`GENERATED_MAX`] mazes.
 ///
 /// ```
 /// use wasmouse_core::maze::generate::GenSpec;
@@ -36,45 +35,45 @@ pub struct GenSpec {
     seeds: RangeInclusive<u64>,
 }
 
-/// Why a text is no [`GenSpec`].
+/// Why a text is not a [`GenSpec`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GenSpecError {
-    /// It has not the three parts.
-    #[error("expected `gen:KIND:DIMENSION:SEED`, found `{found}`")]
+    /// It does not have the three parts.
+    #[error("expected `gen:KIND:SIZE:SEED`, found `{found}`")]
     Shape {
         /// The whole text.
         found: String,
     },
-    /// A part of it has a value that cannot be.
+    /// A part has an invalid value.
     #[error("{part}: expected {expected}, found `{found}`")]
     Part {
-        /// `kind`, `loops`, `dimension` or `seed`.
+        /// `kind`, `loops`, `size` or `seed`.
         part: &'static str,
-        /// What would have been right.
+        /// The valid values.
         expected: &'static str,
-        /// What was there.
+        /// The value found.
         found: String,
     },
-    /// It stands for more mazes than anyone wants to wait for.
-    #[error("seed: expected ranges that make at most {GENERATED_MAX} mazes, found {count}")]
+    /// It stands for more than [`GENERATED_MAX`] mazes.
+    #[error("seed: expected ranges for at most {GENERATED_MAX} mazes, found {count}")]
     TooMany {
-        /// How many mazes it would be.
+        /// The number of mazes.
         count: u128,
     },
 }
 
 const KINDS: &str = "`division`, `tree`, `tree,loops=PERCENT`, `braid` or `stretches`";
 const LOOPS: &str = "a percentage from 0 to 100";
-const DIMENSIONS: &str = "an even number from 12 to 20, or a range such as `12..=20`";
+const SIZES: &str = "an even number from 12 to 20, or a range such as `12..=20`";
 const SEEDS: &str = "a number below 2^64, or a range such as `1..=100`";
 
 impl GenSpec {
-    /// Mazes of one kind, of every even dimension and with every seed of the ranges.
+    /// The mazes of one kind with every even size and every seed of the ranges.
     ///
     /// # Errors
     ///
-    /// When a range is empty or leaves what is valid, the loops exceed 100
-    /// percent, or there would be more than [`GENERATED_MAX`] mazes.
+    /// If a range is empty or has invalid values, if the loops exceed 100 percent, or if there
+    /// would be more than [`GENERATED_MAX`] mazes.
     pub fn new(
         kind: Kind,
         dimensions: RangeInclusive<u8>,
@@ -85,15 +84,15 @@ impl GenSpec {
         {
             return Err(part("loops", LOOPS, loops));
         }
-        let valid = |dimension| GENERATED_DIMENSIONS.contains(dimension);
+        let is_valid = |dimension| GENERATED_DIMENSIONS.contains(dimension);
         let spec = Self {
             kind,
             dimensions,
             seeds,
         };
         let bounds = [spec.dimensions.start(), spec.dimensions.end()];
-        if !bounds.into_iter().all(valid) || spec.even_dimensions().next().is_none() {
-            return Err(part("dimension", DIMENSIONS, range_text(&spec.dimensions)));
+        if !bounds.into_iter().all(is_valid) || spec.even_dimensions().next().is_none() {
+            return Err(part("size", SIZES, range_text(&spec.dimensions)));
         }
         if spec.seeds.is_empty() {
             return Err(part("seed", SEEDS, range_text(&spec.seeds)));
@@ -106,23 +105,23 @@ impl GenSpec {
         Ok(spec)
     }
 
-    /// Whether a text claims to be such a specification: it begins with `gen:`.
+    /// Whether a text is meant as a specification: it starts with `gen:`.
     pub fn is_meant_by(text: &str) -> bool {
         text.starts_with("gen:")
     }
 
-    /// The kind of all its mazes.
+    /// The kind of the mazes.
     pub const fn kind(&self) -> Kind {
         self.kind
     }
 
-    /// How many mazes it stands for. Range: 1 to [`GENERATED_MAX`].
+    /// The number of mazes. Range: 1 to [`GENERATED_MAX`].
     pub fn count(&self) -> u64 {
         let dimensions = self.even_dimensions().count() as u64;
         dimensions * (self.seeds.end() - self.seeds.start() + 1)
     }
 
-    /// The mazes, by dimension and then by seed, none of them generated yet.
+    /// The mazes, by size and then by seed, not generated yet.
     pub fn expand(&self) -> impl Iterator<Item = GeneratedMaze> + use<> {
         let Self { kind, seeds, .. } = self.clone();
         self.even_dimensions().flat_map(move |dimension| {
@@ -141,8 +140,7 @@ impl GenSpec {
 
 /// One generated maze, named but not generated yet.
 ///
-/// Displays as the specification of this maze alone, in full: parsing it gives the same maze
-/// again.
+/// Displays as the full specification of this maze alone; parsing it gives the same maze.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeneratedMaze {
     kind: Kind,
@@ -153,7 +151,7 @@ pub struct GeneratedMaze {
 impl GeneratedMaze {
     /// Generates the maze.
     pub fn generate(&self) -> Maze {
-        generate(self.kind, self.dimension, self.seed)
+        self.kind.generate(self.dimension, self.seed)
     }
 }
 
@@ -182,38 +180,24 @@ impl FromStr for GenSpec {
             });
         };
         let kind = parse_kind(kind)?;
-        let dimensions =
-            parse_range(dimensions).ok_or_else(|| part("dimension", DIMENSIONS, dimensions))?;
+        let dimensions = parse_range(dimensions).ok_or_else(|| part("size", SIZES, dimensions))?;
         let seeds = parse_range(seeds).ok_or_else(|| part("seed", SEEDS, seeds))?;
         Self::new(kind, dimensions, seeds)
     }
 }
 
-/// Parses the kind part: a name and perhaps `,loops=PERCENT`.
+/// Parses the kind: a name, and for a tree optionally `,loops=PERCENT`.
 fn parse_kind(text: &str) -> Result<Kind, GenSpecError> {
-    let (name, setting) = match text.split_once(',') {
-        Some((name, setting)) => (name, Some(setting)),
-        None => (text, None),
-    };
-    match (name, setting) {
-        ("division", None) => Ok(Kind::Division),
-        ("braid", None) => Ok(Kind::Braid),
-        ("stretches", None) => Ok(Kind::Stretches),
-        ("tree", None) => Ok(Kind::Tree {
-            loops: Kind::DEFAULT_LOOPS,
-        }),
-        ("tree", Some(setting)) => {
-            let percent = setting
-                .strip_prefix("loops=")
-                .ok_or_else(|| part("kind", KINDS, text))?;
-            let loops = parse_number(percent).ok_or_else(|| part("loops", LOOPS, percent))?;
-            Ok(Kind::Tree { loops })
-        }
-        _ => Err(part("kind", KINDS, text)),
+    if let Some(kind) = Kind::ALL.into_iter().find(|kind| kind.name() == text) {
+        return Ok(kind);
     }
+    let percent = text.strip_prefix("tree,loops=");
+    let percent = percent.ok_or_else(|| part("kind", KINDS, text))?;
+    let loops = parse_number(percent).ok_or_else(|| part("loops", LOOPS, percent))?;
+    Ok(Kind::Tree { loops })
 }
 
-/// Parses `7` as 7..=7, and `7..=9`.
+/// Parses `7` as 7..=7, or `7..=9`.
 fn parse_range<N: FromStr + Copy>(text: &str) -> Option<RangeInclusive<N>> {
     match text.split_once("..=") {
         Some((first, last)) => Some(parse_number(first)?..=parse_number(last)?),
@@ -221,7 +205,7 @@ fn parse_range<N: FromStr + Copy>(text: &str) -> Option<RangeInclusive<N>> {
     }
 }
 
-/// Parses digits only: no sign, which `parse` would take.
+/// Parses digits only: `str::parse` would accept a sign.
 fn parse_number<N: FromStr>(text: &str) -> Option<N> {
     let digits = text.bytes().all(|byte| byte.is_ascii_digit());
     digits.then(|| text.parse().ok()).flatten()
@@ -248,117 +232,95 @@ mod tests {
     use super::*;
 
     #[test]
-    fn good_specifications_print_in_full() {
-        for (text, printed, count) in [
-            ("gen:division:12:0", "gen:division:12:0", 1),
+    fn valid_specifications_display_in_full() {
+        for (text, full, count) in [
+            ("division:12:0", "division:12:0", 1),
             (
-                "gen:braid:20:18446744073709551615",
-                "gen:braid:20:18446744073709551615",
+                "braid:20:18446744073709551615",
+                "braid:20:18446744073709551615",
                 1,
             ),
-            ("gen:stretches:18:3", "gen:stretches:18:3", 1),
-            ("gen:tree:14:7", "gen:tree,loops=12:14:7", 1),
-            ("gen:tree,loops=0:14:07", "gen:tree,loops=0:14:7", 1),
+            ("stretches:18:3", "stretches:18:3", 1),
+            ("tree:14:7", "tree,loops=12:14:7", 1),
+            ("tree,loops=0:14:07", "tree,loops=0:14:7", 1),
             (
-                "gen:tree,loops=100:12..=13:5..=9",
-                "gen:tree,loops=100:12..=13:5..=9",
+                "tree,loops=100:12..=13:5..=9",
+                "tree,loops=100:12..=13:5..=9",
                 5,
             ),
             (
-                "gen:division:12..=20:1..=20000",
-                "gen:division:12..=20:1..=20000",
+                "division:12..=20:1..=20000",
+                "division:12..=20:1..=20000",
                 100_000,
             ),
         ] {
+            let [text, full] = [text, full].map(|text| format!("gen:{text}"));
             let spec: GenSpec = text.parse().unwrap_or_else(|e| panic!("{text}: {e}"));
-            assert_eq!((spec.to_string().as_str(), spec.count()), (printed, count));
-            assert_eq!(printed.parse(), Ok(spec), "{printed}");
+            assert_eq!((spec.to_string(), spec.count()), (full.clone(), count));
+            assert_eq!(full.parse(), Ok(spec), "{full}");
         }
     }
 
     #[test]
-    fn bad_specifications_name_the_part() {
-        for (text, message) in [
-            ("gen:", "expected `gen:KIND:DIMENSION:SEED`, found `gen:`"),
-            (
-                "gen:tree:16",
-                "expected `gen:KIND:DIMENSION:SEED`, found `gen:tree:16`",
-            ),
-            (
-                "gen:tree:16:1:2",
-                "expected `gen:KIND:DIMENSION:SEED`, found `gen:tree:16:1:2`",
-            ),
-            (
-                "tree:16:1:2",
-                "expected `gen:KIND:DIMENSION:SEED`, found `tree:16:1:2`",
-            ),
-            (
-                "gen:hedge:16:1",
-                "kind: expected `division`, `tree`, `tree,loops=PERCENT`, `braid` or `stretches`, found `hedge`",
-            ),
-            (
-                "gen:braid,loops=3:16:1",
-                "kind: expected `division`, `tree`, `tree,loops=PERCENT`, `braid` or `stretches`, found `braid,loops=3`",
-            ),
-            (
-                "gen:tree,twist=3:16:1",
-                "kind: expected `division`, `tree`, `tree,loops=PERCENT`, `braid` or `stretches`, found `tree,twist=3`",
-            ),
-            (
-                "gen:tree,loops=101:16:1",
-                "loops: expected a percentage from 0 to 100, found `101`",
-            ),
-            (
-                "gen:tree,loops=:16:1",
-                "loops: expected a percentage from 0 to 100, found ``",
-            ),
-            (
-                "gen:tree:13:1",
-                "dimension: expected an even number from 12 to 20, or a range such as `12..=20`, found `13`",
-            ),
-            (
-                "gen:tree:10..=16:1",
-                "dimension: expected an even number from 12 to 20, or a range such as `12..=20`, found `10..=16`",
-            ),
-            (
-                "gen:tree:16..=12:1",
-                "dimension: expected an even number from 12 to 20, or a range such as `12..=20`, found `16..=12`",
-            ),
-            (
-                "gen:tree:300:1",
-                "dimension: expected an even number from 12 to 20, or a range such as `12..=20`, found `300`",
-            ),
-            (
-                "gen:tree:12..20:1",
-                "dimension: expected an even number from 12 to 20, or a range such as `12..=20`, found `12..20`",
-            ),
-            (
-                "gen:tree:16:-1",
-                "seed: expected a number below 2^64, or a range such as `1..=100`, found `-1`",
-            ),
-            (
-                "gen:tree:16:+1",
-                "seed: expected a number below 2^64, or a range such as `1..=100`, found `+1`",
-            ),
-            (
-                "gen:tree:16:18446744073709551616",
-                "seed: expected a number below 2^64, or a range such as `1..=100`, found `18446744073709551616`",
-            ),
-            (
-                "gen:tree:16:9..=8",
-                "seed: expected a number below 2^64, or a range such as `1..=100`, found `9..=8`",
-            ),
-            (
-                "gen:tree:12..=20:1..=20001",
-                "seed: expected ranges that make at most 100000 mazes, found 100005",
-            ),
-            (
-                "gen:tree:12..=20:0..=18446744073709551615",
-                "seed: expected ranges that make at most 100000 mazes, found 92233720368547758080",
-            ),
-        ] {
-            let error = text.parse::<GenSpec>().expect_err(text);
-            assert_eq!(error.to_string(), message, "{text}");
-        }
+    fn errors_name_the_invalid_part() {
+        let check = |expected: &str, cases: &[(&str, &str)]| {
+            for &(text, found) in cases {
+                let error = text.parse::<GenSpec>().expect_err(text);
+                assert_eq!(error.to_string(), format!("{expected}, found {found}"));
+            }
+        };
+        check(
+            "expected `gen:KIND:SIZE:SEED`",
+            &[
+                ("gen:", "`gen:`"),
+                ("gen:tree:16", "`gen:tree:16`"),
+                ("gen:tree:16:1:2", "`gen:tree:16:1:2`"),
+                ("tree:16:1:2", "`tree:16:1:2`"),
+            ],
+        );
+        check(
+            "kind: expected `division`, `tree`, `tree,loops=PERCENT`, `braid` or `stretches`",
+            &[
+                ("gen:hedge:16:1", "`hedge`"),
+                ("gen:braid,loops=3:16:1", "`braid,loops=3`"),
+                ("gen:tree,twist=3:16:1", "`tree,twist=3`"),
+            ],
+        );
+        check(
+            "loops: expected a percentage from 0 to 100",
+            &[
+                ("gen:tree,loops=101:16:1", "`101`"),
+                ("gen:tree,loops=:16:1", "``"),
+            ],
+        );
+        check(
+            "size: expected an even number from 12 to 20, or a range such as `12..=20`",
+            &[
+                ("gen:tree:13:1", "`13`"),
+                ("gen:tree:10..=16:1", "`10..=16`"),
+                ("gen:tree:16..=12:1", "`16..=12`"),
+                ("gen:tree:300:1", "`300`"),
+                ("gen:tree:12..20:1", "`12..20`"),
+            ],
+        );
+        check(
+            "seed: expected a number below 2^64, or a range such as `1..=100`",
+            &[
+                ("gen:tree:16:-1", "`-1`"),
+                ("gen:tree:16:+1", "`+1`"),
+                ("gen:tree:16:18446744073709551616", "`18446744073709551616`"),
+                ("gen:tree:16:9..=8", "`9..=8`"),
+            ],
+        );
+        check(
+            "seed: expected ranges for at most 100000 mazes",
+            &[
+                ("gen:tree:12..=20:1..=20001", "100005"),
+                (
+                    "gen:tree:12..=20:0..=18446744073709551615",
+                    "92233720368547758080",
+                ),
+            ],
+        );
     }
 }

@@ -1,20 +1,18 @@
-//! `stretches`: Minnett's generator as his public program has it.
+//! `stretches`: Minnett's generator as his public program implements it.
 //!
-//! His report speaks of stretches of four edges (section 1.4.1), and `division`
-//! is made from that. The maze generator of the program that he published with
-//! it (`maze_generator.py`) does something else: it takes turns between vertical
-//! and horizontal edges, picks any edge that is not decided yet, and lets a
-//! stretch grow from it, up or right first and then down or left, to at most
-//! five edges. One of them becomes an opening and the others walls. It ends when
-//! all edges are decided. So even a single edge can be a stretch, which is then
-//! an opening: these mazes have shorter ways to the goal than those of
-//! `division`.
+//! His report describes stretches of four edges (section 1.4.1), which `division` implements.
+//! The generator of the program that he published with it (`maze_generator.py`) differs: it
+//! alternates between vertical and horizontal edges, picks any undecided edge, and extends it
+//! to a stretch of at most five edges, up or right first, then down or left. One of them
+//! becomes an opening and the others walls. The algorithm ends when all edges are decided. A
+//! stretch can be a single edge, which is then an opening, so these mazes have shorter paths
+//! to the goal than those of `division`.
 //!
-//! A stretch grows past a post only while nothing is decided about the two edges
-//! across it. It may thus grow over edges of an earlier stretch, which are then
-//! decided again. That is also why all cells stay connected: no wall outside the
-//! stretch stands at a post inside it, so its walls, an opening between them, are
-//! connected to other walls at one end at most, and no ring of walls can close.
+//! A stretch extends past a post only if the two edges across it are undecided. It may extend
+//! over edges of an earlier stretch, which are then decided again. This also keeps all cells
+//! connected: there is no wall outside the stretch at a post inside it, so each part of its
+//! walls, on either side of the opening, is connected to other walls at one end at most, and
+//! closes no ring of walls.
 
 use super::super::{Heading, Walls};
 use super::draft::{Draft, Edge};
@@ -26,7 +24,7 @@ const LONGEST: usize = 5;
 /// The walls of one maze.
 pub(super) fn walls(dimension: u8, draws: &mut Draws) -> Walls {
     let mut draft = Draft::new(Walls::open(dimension), draws);
-    // By direction: vertical and horizontal ones.
+    // Vertical edges, then horizontal ones.
     let mut undecided = [Heading::Up, Heading::Right].map(|along| {
         let mut edges = draft.edges();
         edges.retain(|&edge| draft.is_free(edge) && edge.along() == along);
@@ -47,13 +45,13 @@ pub(super) fn walls(dimension: u8, draws: &mut Draws) -> Walls {
     draft.into_walls()
 }
 
-/// The stretch around an edge: up or right as far as it goes, then the other way.
+/// The stretch around an edge: as far as possible up or right, then in the other direction.
 fn grow(first: Edge, undecided_across: &[Edge]) -> Vec<Edge> {
     let mut stretch = vec![first];
-    for way in [first.along(), first.along().opposite()] {
+    for direction in [first.along(), first.along().opposite()] {
         let mut tip = first;
         while stretch.len() < LONGEST
-            && let Some((across, next)) = tip.past(way)
+            && let Some((across, next)) = tip.past(direction)
             && across.iter().all(|edge| undecided_across.contains(edge))
         {
             stretch.push(next);

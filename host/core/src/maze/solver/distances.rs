@@ -1,7 +1,7 @@
 //! [`Distances`]: how far every cell is from the goal or from one cell.
 //!
-//! A breadth-first search with flat arrays. The maze already knows how many
-//! open cells lie in each direction, so a move needs no look at single walls.
+//! A breadth-first search with flat arrays. The maze stores how many open cells there are in
+//! each direction, so the search does not look at single walls.
 
 use super::super::{Cell, Heading, Maze};
 
@@ -11,14 +11,13 @@ pub const LONGEST_MOVE: u8 = 3;
 /// What a distance counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Metric {
-    /// Steps of a robot: each covers 1 to `longest_move` cells in a straight
-    /// line, in any of the four directions.
+    /// Steps of a robot: each covers 1 to `longest_move` cells in a straight line, in any of
+    /// the four directions.
     Steps {
-        /// The longest move, in cells. Range: at least 1 to get anywhere; 0
-        /// leaves every other cell out of reach.
+        /// The longest move, in cells. If it is 0, no other cell is reachable.
         longest_move: u8,
     },
-    /// Cells driven through.
+    /// Cells that the robot drives.
     Cells,
 }
 
@@ -28,7 +27,7 @@ impl Metric {
         longest_move: LONGEST_MOVE,
     };
 
-    /// The longest move that costs 1 in this metric, in cells.
+    /// The longest move with a cost of 1, in cells.
     const fn unit_move(self) -> u8 {
         match self {
             Self::Steps { longest_move } => longest_move,
@@ -36,7 +35,7 @@ impl Metric {
         }
     }
 
-    /// The longest move of the robot whose path is wanted, in cells.
+    /// The longest move in a path, in cells.
     pub(super) const fn longest_move(self) -> u8 {
         match self {
             Self::Steps { longest_move } => longest_move,
@@ -57,7 +56,7 @@ impl Metric {
 ///
 /// ```
 /// use wasmouse_core::maze::{Cell, Maze, Metric, Walls, distances_to_goal};
-/// let maze = Maze::contest(Walls::open(12)).expect("a 12 x 12 maze has room");
+/// let maze = Maze::contest(Walls::open(12)).expect("start and goal fit");
 /// let steps = distances_to_goal(&maze, Metric::STEPS);
 /// assert_eq!(steps.get(Cell::new(0, 0)), Some(4));
 /// let cells = distances_to_goal(&maze, Metric::Cells);
@@ -66,18 +65,17 @@ impl Metric {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Distances {
     dimension: u8,
-    /// By cell index; [`UNREACHED`] where no way leads.
+    /// By cell index; [`UNREACHED`] if there is no path.
     values: Box<[u32]>,
-    /// Indices of the reached cells, nearest first.
+    /// The indices of the reachable cells, nearest first.
     order: Vec<u16>,
 }
 
-/// Larger than any distance: a maze has at most 64 x 64 cells.
+/// Greater than any distance: a maze has at most 64 x 64 cells.
 const UNREACHED: u32 = u32::MAX;
 
 impl Distances {
-    /// The distance of `cell`; `None` when no way leads there or the maze has
-    /// no such cell.
+    /// The distance of `cell`; `None` if it is unreachable or outside the maze.
     pub fn get(&self, cell: Cell) -> Option<u32> {
         if cell.x >= self.dimension || cell.y >= self.dimension {
             return None;
@@ -86,30 +84,29 @@ impl Distances {
         Some(self.values[index]).filter(|&value| value != UNREACHED)
     }
 
-    /// The largest distance of any reached cell; 0 when only sources were reached.
+    /// The largest distance of a reachable cell.
     pub fn largest(&self) -> u32 {
         self.order.last().map_or(0, |&index| self.at(index))
     }
 
-    /// How many cells were reached, sources included.
+    /// The number of reachable cells, including those at distance 0.
     pub fn reached(&self) -> usize {
         self.order.len()
     }
 
-    /// The reached cells as indices, nearest first.
+    /// The indices of the reachable cells, nearest first.
     pub(super) fn order(&self) -> &[u16] {
         &self.order
     }
 
-    /// The distance of a reached cell by index.
+    /// The distance of a reachable cell by index.
     pub(super) fn at(&self, index: u16) -> u32 {
         self.values[usize::from(index)]
     }
 }
 
-/// How far every cell is from the goal. Steps count only when they end in the
-/// goal, so a cell from which the robot would have to overshoot is no nearer
-/// for it.
+/// How far every cell is from the goal. The last step has to end in the goal: driving through
+/// it is not enough.
 pub fn distances_to_goal(maze: &Maze, metric: Metric) -> Distances {
     search(maze, maze.goal().cells(), metric)
 }
@@ -118,7 +115,7 @@ pub fn distances_to_goal(maze: &Maze, metric: Metric) -> Distances {
 ///
 /// # Panics
 ///
-/// When `cell` is outside the maze.
+/// If `cell` is outside the maze.
 pub fn distances_from(maze: &Maze, cell: Cell, metric: Metric) -> Distances {
     assert!(maze.walls().contains(cell), "{cell} is outside the maze");
     search(maze, [cell], metric)
@@ -138,8 +135,8 @@ fn search(maze: &Maze, sources: impl IntoIterator<Item = Cell>, metric: Metric) 
         next += 1;
         let distance = values[usize::from(from)] + 1;
         for step in moves(maze, from, metric.unit_move()) {
-            // Cells behind a nearer one may still be new, so the search goes on
-            // to the end of the move.
+            // Cells behind one that was reached before may still be new, so the search
+            // continues to the end of the move.
             let value = &mut values[usize::from(step.to)];
             if *value == UNREACHED {
                 *value = distance;
@@ -154,14 +151,14 @@ fn search(maze: &Maze, sources: impl IntoIterator<Item = Cell>, metric: Metric) 
     }
 }
 
-/// A straight move of 1 or more cells from one cell to another, by index.
+/// A straight move of at least 1 cell, to the cell with index `to`.
 #[derive(Clone, Copy)]
 pub(super) struct Move {
     pub(super) to: u16,
     pub(super) cells: u8,
 }
 
-/// All moves from a cell of up to `longest` cells: by heading, shortest first.
+/// All moves of up to `longest` cells from a cell, by heading, shortest first.
 pub(super) fn moves(maze: &Maze, from: u16, longest: u8) -> impl Iterator<Item = Move> {
     let stride = i32::from(maze.dimension());
     let cell = cell_at(maze, from);
@@ -175,7 +172,7 @@ pub(super) fn moves(maze: &Maze, from: u16, longest: u8) -> impl Iterator<Item =
         let reach = maze.reach(cell, heading).min(longest);
         (1..=reach).map(move |cells| {
             let to = i32::from(from) + delta * i32::from(cells);
-            let to = u16::try_from(to).expect("reach ends inside the maze");
+            let to = u16::try_from(to).expect("a move ends inside the maze");
             Move { to, cells }
         })
     })
@@ -198,65 +195,46 @@ mod tests {
 
     use super::*;
     use crate::maze::Walls;
-    use crate::maze::solver::testing::random_maze;
+    use crate::maze::testing::random_maze;
 
-    /// The same distances the slow way: relax every single-cell drive until
-    /// nothing changes. The state is the cell, the heading of the current
-    /// straight drive and the cells driven in it; a drive that is full, or that
-    /// changes its heading, costs another step.
+    /// The same distances by a slower algorithm: relax single-cell drives until nothing
+    /// changes. The state is the cell, the heading of the current move and the cells driven
+    /// in it. A move that is as long as possible, or that changes its heading, costs another
+    /// step.
     fn bellman_ford(maze: &Maze, from: Cell, metric: Metric) -> Vec<Option<u32>> {
         let longest = metric.unit_move();
-        let n = maze.dimension();
-        let cells: Vec<Cell> = maze.walls().cells().collect();
-        let state = |cell: Cell, heading: Heading, driven: u8| {
-            (maze.walls().index(cell) * 4 + heading as usize) * usize::from(longest + 1)
-                + usize::from(driven)
-        };
-        let mut best = vec![u32::MAX; usize::from(n).pow(2) * 4 * usize::from(longest + 1)];
-        for heading in Heading::ALL {
-            best[state(from, heading, 0)] = 0;
-        }
+        let walls = maze.walls();
+        let moves = usize::from(longest) + 1;
+        let slot = |heading: Heading, driven: u8| heading as usize * moves + usize::from(driven);
+        let mut best = vec![vec![UNREACHED; 4 * moves]; walls.cells().count()];
+        best[walls.index(from)][slot(Heading::Up, 0)] = 0;
         let mut changed = true;
         while changed {
             changed = false;
-            for &cell in &cells {
-                for heading in Heading::ALL {
-                    for driven in 0..=longest {
-                        let cost = best[state(cell, heading, driven)];
-                        if cost == u32::MAX {
-                            continue;
-                        }
-                        for out in Heading::ALL {
-                            if !maze.walls().is_open(cell, out) {
-                                continue;
-                            }
-                            let next = maze.walls().neighbor(cell, out).expect("open");
-                            let same_drive = out == heading && driven > 0 && driven < longest;
-                            let (cost, driven) = if same_drive {
-                                (cost, driven + 1)
-                            } else {
-                                (cost + 1, 1)
-                            };
-                            let slot = &mut best[state(next, out, driven)];
-                            if cost < *slot {
-                                *slot = cost;
-                                changed = true;
-                            }
-                        }
+            for (cell, heading) in walls
+                .cells()
+                .flat_map(|cell| Heading::ALL.map(|it| (cell, it)))
+            {
+                for driven in 0..=longest {
+                    let cost = best[walls.index(cell)][slot(heading, driven)];
+                    let is_open = |out: &Heading| cost != UNREACHED && walls.is_open(cell, *out);
+                    for out in Heading::ALL.into_iter().filter(is_open) {
+                        let next = walls.neighbor(cell, out).expect("open");
+                        let (cost, driven) = match driven {
+                            0 => (cost + 1, 1),
+                            _ if out == heading && driven < longest => (cost, driven + 1),
+                            _ => (cost + 1, 1),
+                        };
+                        let old = &mut best[walls.index(next)][slot(out, driven)];
+                        changed |= cost < *old;
+                        *old = cost.min(*old);
                     }
                 }
             }
         }
-        cells
-            .iter()
-            .map(|&cell| {
-                Heading::ALL
-                    .into_iter()
-                    .flat_map(|h| (0..=longest).map(move |d| (h, d)))
-                    .map(|(h, d)| best[state(cell, h, d)])
-                    .min()
-                    .filter(|&cost| cost != u32::MAX)
-            })
+        let nearest = best.iter().map(|costs| costs.iter().copied().min());
+        nearest
+            .map(|cost| cost.filter(|&cost| cost != UNREACHED))
             .collect()
     }
 
@@ -275,7 +253,7 @@ mod tests {
         }
 
         #[test]
-        fn distances_are_symmetric(maze in random_maze(3..=9)) {
+        fn distances_to_the_goal_are_distances_from_the_goal(maze in random_maze(3..=9)) {
             for metric in [Metric::STEPS, Metric::Cells] {
                 let to_goal = distances_to_goal(&maze, metric);
                 for cell in maze.walls().cells() {
@@ -289,7 +267,7 @@ mod tests {
 
     #[test]
     fn unreachable_cells_have_no_distance() {
-        let maze = Maze::contest(Walls::closed(12)).expect("room for both");
+        let maze = Maze::contest(Walls::closed(12)).expect("start and goal fit");
         let distances = distances_to_goal(&maze, Metric::STEPS);
         assert_eq!(distances.get(maze.start()), None);
         assert_eq!(distances.get(Cell::new(99, 0)), None);
@@ -297,8 +275,8 @@ mod tests {
     }
 
     #[test]
-    fn a_move_of_no_cells_leads_nowhere() {
-        let maze = Maze::contest(Walls::open(12)).expect("room for both");
+    fn a_longest_move_of_0_reaches_nothing() {
+        let maze = Maze::contest(Walls::open(12)).expect("start and goal fit");
         let distances = distances_from(&maze, maze.start(), Metric::Steps { longest_move: 0 });
         assert_eq!(distances.reached(), 1);
     }

@@ -1,31 +1,32 @@
-//! [`Path`]: where an optimal run stops, from the start to the goal.
+//! [`Path`]: an optimal path from the start to the goal.
 //!
-//! Among the paths that are optimal in the wanted metric the one with the
-//! fewest of the other is chosen, so that a drawing does not depend on chance:
-//! fewest steps, then fewest cells, or the other way round. Remaining ties go
-//! to the first direction clockwise from up, and there to the shorter move.
+//! Of several optimal paths, the choice is fixed: among the paths with the fewest steps the
+//! one with the fewest cells, or the reverse. Remaining ties go to the first direction
+//! clockwise from up, then to the shorter move.
+
+use std::cmp::Ordering;
 
 use super::super::{Cell, Heading, Maze};
 use super::distances::{Distances, Metric, cell_at, distances_to_goal, moves};
 
-/// A way from the start to the goal, as the cells where its steps end.
+/// A path from the start to the goal: the cells where its steps end.
 ///
 /// ```
 /// use wasmouse_core::maze::{Maze, Metric, Walls, shortest_path};
-/// let maze = Maze::contest(Walls::open(12)).expect("a 12 x 12 maze has room");
-/// let path = shortest_path(&maze, Metric::STEPS).expect("nothing is in the way");
+/// let maze = Maze::contest(Walls::open(12)).expect("start and goal fit");
+/// let path = shortest_path(&maze, Metric::STEPS).expect("the goal is reachable");
 /// assert_eq!((path.steps(), path.cells()), (4, 10));
 /// assert_eq!(path.stops()[0], maze.start());
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Path {
-    /// Never empty; each is in a straight line from the one before.
+    /// Never empty; consecutive cells are on a straight line.
     stops: Vec<Cell>,
 }
 
 impl Path {
-    /// The cells where steps end, the start first. Never empty; neighbours in
-    /// the list lie on a straight line.
+    /// The cells where steps end, the start first. Never empty; consecutive cells are on a
+    /// straight line.
     pub fn stops(&self) -> &[Cell] {
         &self.stops
     }
@@ -35,17 +36,17 @@ impl Path {
         u32::try_from(self.stops.len() - 1).expect("a path visits no cell twice")
     }
 
-    /// Cells driven from the start to the goal, the start not counted.
+    /// Cells driven from the start to the goal, not counting the start.
     pub fn cells(&self) -> u32 {
         self.moves().map(|(_, cells)| u32::from(cells)).sum()
     }
 
-    /// The steps one by one: the direction and the cells driven, at least 1.
+    /// The direction and the number of cells of each step; at least 1 cell.
     pub fn moves(&self) -> impl Iterator<Item = (Heading, u8)> {
         self.stops.windows(2).map(|pair| between(pair[0], pair[1]))
     }
 
-    /// Every cell that the path touches, in order, the start first.
+    /// Every cell of the path, in order, the start first.
     pub fn trail(&self) -> Vec<Cell> {
         let mut cell = self.stops[0];
         let mut trail = vec![cell];
@@ -59,11 +60,11 @@ impl Path {
     }
 }
 
-/// The optimal path from the start to the goal in that metric; `None` when the
-/// goal cannot be reached.
+/// The optimal path from the start to the goal in that metric; `None` if the goal is
+/// unreachable.
 ///
-/// The steps of a path that is optimal in cells are those of a robot that moves
-/// up to [`LONGEST_MOVE`](super::LONGEST_MOVE) cells in a step.
+/// With [`Metric::Cells`], a step of the path has up to [`LONGEST_MOVE`](super::LONGEST_MOVE)
+/// cells.
 pub fn shortest_path(maze: &Maze, metric: Metric) -> Option<Path> {
     let distances = distances_to_goal(maze, metric);
     distances.get(maze.start())?;
@@ -77,11 +78,11 @@ pub fn shortest_path(maze: &Maze, metric: Metric) -> Option<Path> {
     Some(Path { stops })
 }
 
-/// For every reached cell the cost of the rest of its best way in the other
-/// metric, and the index of the cell where its next step ends.
+/// For every reachable cell, the cost of its best path to the goal in the other metric, and
+/// the index of the cell where the next step ends.
 ///
-/// Cells are visited nearest first, and every optimal step leads to a nearer
-/// one, so one pass is enough.
+/// One pass over the cells, nearest first, is enough: every optimal step leads to a nearer
+/// cell.
 fn onward_moves(maze: &Maze, metric: Metric, distances: &Distances) -> Vec<(u32, u16)> {
     let mut onward = vec![(0, 0); usize::from(maze.dimension()).pow(2)];
     for &from in distances.order() {
@@ -99,28 +100,20 @@ fn onward_moves(maze: &Maze, metric: Metric, distances: &Distances) -> Vec<(u32,
                 optimal.then(|| (onward[usize::from(step.to)].0 + other, step.to))
             })
             .min_by_key(|&(other, _)| other)
-            .expect("a cell at a distance has a step that leads nearer");
+            .expect("a step leads nearer to the goal");
     }
     onward
 }
 
 /// The direction and distance from one cell to another in its row or column.
 fn between(from: Cell, to: Cell) -> (Heading, u8) {
-    if from.x == to.x {
-        let heading = if to.y > from.y {
-            Heading::Up
-        } else {
-            Heading::Down
-        };
-        (heading, from.y.abs_diff(to.y))
-    } else {
-        let heading = if to.x > from.x {
-            Heading::Right
-        } else {
-            Heading::Left
-        };
-        (heading, from.x.abs_diff(to.x))
-    }
+    let heading = match (to.x.cmp(&from.x), to.y.cmp(&from.y)) {
+        (Ordering::Greater, _) => Heading::Right,
+        (Ordering::Less, _) => Heading::Left,
+        (Ordering::Equal, Ordering::Greater) => Heading::Up,
+        (Ordering::Equal, _) => Heading::Down,
+    };
+    (heading, from.x.abs_diff(to.x) + from.y.abs_diff(to.y))
 }
 
 #[cfg(test)]
@@ -129,11 +122,11 @@ mod tests {
 
     use super::*;
     use crate::maze::Walls;
-    use crate::maze::solver::testing::random_maze;
+    use crate::maze::testing::random_maze;
 
     proptest! {
         #[test]
-        fn a_path_can_be_driven_and_is_as_long_as_its_distance(maze in random_maze(4..=12)) {
+        fn a_path_is_drivable_and_as_long_as_its_distance(maze in random_maze(4..=12)) {
             for metric in [Metric::STEPS, Metric::Cells] {
                 let distance = distances_to_goal(&maze, metric).get(maze.start());
                 let path = shortest_path(&maze, metric);
@@ -156,7 +149,7 @@ mod tests {
         }
 
         #[test]
-        fn neither_metric_beats_the_other_at_its_own_game(maze in random_maze(4..=12)) {
+        fn each_metric_gives_the_shortest_path_in_it(maze in random_maze(4..=12)) {
             let steps = shortest_path(&maze, Metric::STEPS);
             let cells = shortest_path(&maze, Metric::Cells);
             if let (Some(steps), Some(cells)) = (steps, cells) {
@@ -168,7 +161,7 @@ mod tests {
 
     #[test]
     fn a_closed_maze_has_no_path() {
-        let maze = Maze::contest(Walls::closed(12)).expect("room for both");
+        let maze = Maze::contest(Walls::closed(12)).expect("start and goal fit");
         assert_eq!(shortest_path(&maze, Metric::STEPS), None);
     }
 
@@ -176,7 +169,7 @@ mod tests {
     fn a_goal_in_the_middle_of_a_corridor_needs_a_step_that_ends_there() {
         // A 5 x 5 maze has its one goal cell at (2, 2), one cell before the
         // longest move from (0, 2) would end.
-        let maze = Maze::contest(Walls::open(5)).expect("room for both");
+        let maze = Maze::contest(Walls::open(5)).expect("start and goal fit");
         let path = shortest_path(&maze, Metric::STEPS).expect("open");
         assert_eq!(
             path.moves().collect::<Vec<_>>(),

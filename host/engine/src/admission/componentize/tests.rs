@@ -3,9 +3,9 @@
 use super::*;
 use proptest::prelude::*;
 
-const START: &str = r#"(func (export "wasmouse:robot/controller@0.1.0#start")
-    (param i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i64 i32))"#;
-const NEXT: &str = r#"(func (export "wasmouse:robot/controller@0.1.0#next-move")
+const START: &str = r#"(func (export "wasmouse:robot/controller@0.2.0#start")
+    (param i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i64 i32))"#;
+const NEXT: &str = r#"(func (export "wasmouse:robot/controller@0.2.0#next-move")
     (param i32 i32 i32) (result i32) i32.const 16)"#;
 const MEMORY: &str = r#"(memory (export "memory") 1)"#;
 
@@ -23,7 +23,7 @@ fn typed(module: &[u8]) -> Vec<u8> {
 }
 
 fn typed_with(module: &[u8], strings: StringEncoding) -> Vec<u8> {
-    let (resolve, world) = robot_world();
+    let (resolve, world) = robot_world(0);
     let mut bytes = module.to_vec();
     embed_component_metadata(&mut bytes, &resolve, world, strings, false).unwrap();
     bytes
@@ -62,7 +62,7 @@ fn plain_exports_become_a_component() {
     assert_eq!(BinaryKind::of(&component), BinaryKind::Component);
     assert_eq!(
         export_names(&component),
-        ["wasmouse:robot/controller@0.1.0"]
+        ["wasmouse:robot/controller@0.2.0"]
     );
 }
 
@@ -71,7 +71,7 @@ fn embedded_types_become_a_component() {
     let component = componentize(&typed(&good())).unwrap();
     assert_eq!(
         export_names(&component),
-        ["wasmouse:robot/controller@0.1.0"]
+        ["wasmouse:robot/controller@0.2.0"]
     );
     // Types written by us and types written by a generator must agree.
     assert_eq!(component, componentize(&good()).unwrap());
@@ -79,7 +79,7 @@ fn embedded_types_become_a_component() {
 
 #[test]
 fn the_journal_may_be_imported_without_types() {
-    let paint = r#"(import "wasmouse:robot/journal@0.1.0" "paint" (func (param i32 i32 i32)))"#;
+    let paint = r#"(import "wasmouse:robot/journal@0.2.0" "paint" (func (param i32 i32 i32)))"#;
     let component = componentize(&module(&[paint, START, NEXT, MEMORY])).unwrap();
     assert_eq!(BinaryKind::of(&component), BinaryKind::Component);
 }
@@ -110,13 +110,13 @@ fn refusals_name_a_foreign_import() {
 
 #[test]
 fn a_wrong_signature_is_named() {
-    let start = r#"(func (export "wasmouse:robot/controller@0.1.0#start") (param i32))"#;
+    let start = r#"(func (export "wasmouse:robot/controller@0.2.0#start") (param i32))"#;
     check_refused(&module(&[start, NEXT, MEMORY]), "#start");
 }
 
 #[test]
 fn the_string_encoding_is_kept() {
-    const LOG: &str = r#"(import "wasmouse:robot/journal@0.1.0" "log"
+    const LOG: &str = r#"(import "wasmouse:robot/journal@0.2.0" "log"
         (func (param i32 i32 i32)))"#;
     let module = module(&[LOG, START, NEXT, MEMORY]);
     let utf8 = componentize(&module).unwrap();

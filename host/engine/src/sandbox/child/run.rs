@@ -16,10 +16,9 @@ use super::super::role::{Role, SandboxStatus};
 use super::confine;
 use super::pipes::{Pipes, read_exactly};
 use super::setup::sandboxed;
-use crate::STACK_BYTES;
 use crate::admission::Rejection;
 use crate::error::InfrastructureError;
-use crate::limits::Limits;
+use crate::limits::{Limits, STACK_BYTES};
 use crate::runner::Recording;
 use crate::runtime::{CompiledRobot, Runtime, engine_id};
 

@@ -244,7 +244,7 @@ mod tests {
         );
         check_change(
             |it| it.transcript = Ok(vec![1, 0]),
-            Some("it stops in the middle of the match"),
+            Some("the transcript ends before the match does"),
         );
         check_change(
             |it| it.transcript = Ok(vec![1]),

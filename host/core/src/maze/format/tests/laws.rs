@@ -1,40 +1,18 @@
-//! The round trip of any maze through every format, and text of any kind.
+//! Properties: round trips through every format, and errors for text of any kind.
 
 use proptest::prelude::*;
 
 use super::*;
-
-prop_compose! {
-    fn any_walls()(dimension in 3u8..=64)(
-        dimension in Just(dimension),
-        open in proptest::collection::vec(
-            any::<bool>(),
-            2 * usize::from(dimension) * usize::from(dimension),
-        ),
-    ) -> Walls {
-        let mut walls = Walls::closed(dimension);
-        let mut open = open.into_iter();
-        let cells: Vec<Cell> = walls.cells().collect();
-        for cell in cells {
-            for heading in [Heading::Up, Heading::Right] {
-                let open = open.next().expect("two per cell");
-                if walls.neighbor(cell, heading).is_some() {
-                    walls.set(cell, heading, open);
-                }
-            }
-        }
-        walls
-    }
-}
+use crate::maze::testing::random_walls;
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
-    fn printing_and_reading_is_the_identity(walls in any_walls()) {
+    fn parsing_what_was_printed_gives_the_same_maze(walls in random_walls(3..=64)) {
         let maze = Maze::contest(walls).expect("start and goal fit");
         for format in Format::ALL {
-            let text = print(&maze, format).expect("start and goal are the usual ones");
+            let text = print(&maze, format).expect("start and goal are unmarked");
             let parsed = parse(&text).expect("what was printed is a maze");
             prop_assert_eq!(&parsed.maze, &maze);
             prop_assert_eq!(parsed.format, format);
@@ -42,8 +20,8 @@ proptest! {
     }
 
     #[test]
-    fn competition_text_holds_any_start_and_goal(
-        walls in any_walls(),
+    fn competition_text_stores_any_start_and_goal(
+        walls in random_walls(3..=64),
         places in proptest::array::uniform6(0u8..64),
     ) {
         let n = walls.dimension();

@@ -1,15 +1,15 @@
-//! Good input for every format, and text that is none of them. Bad input of each
-//! format is in [`numbers`] and [`pictures`], what holds for all text in [`laws`].
+//! Valid files of every format, and text of no format. Invalid files of each format are in
+//! [`numbers`] and [`pictures`], properties of all text in [`laws`].
 
 mod laws;
 mod numbers;
 mod pictures;
 
-use super::super::{Area, Cell, Heading, Maze, Walls};
 use super::*;
+use crate::maze::{Area, Cell, Heading, Maze, Walls};
 
-/// Reads `text` and compares with `Ok` (format, start, goal origin, goal width)
-/// or the error message.
+/// Parses `text` and compares with `Ok` (format, start, goal) or the error message.
+#[track_caller]
 fn check(text: &str, expected: Result<(Format, Cell, Area), &str>) {
     let found = parse(text)
         .map(|parsed| (parsed.format, parsed.maze.start(), parsed.maze.goal()))
@@ -45,7 +45,7 @@ const BLOCKS: &str = "\
 ";
 
 #[test]
-fn good_files() {
+fn valid_files_are_parsed() {
     let udacity = Ok((Format::Udacity, ZERO, center(3)));
     check(UDACITY, udacity);
     check(&UDACITY.replace('\n', "\r\n"), udacity);
@@ -112,11 +112,11 @@ fn all_formats_describe_the_same_maze() {
 }
 
 #[test]
-fn text_that_is_no_maze() {
+fn text_of_no_format_is_rejected() {
     for blank in ["", "\n", " \r\n\t\n", "\u{feff}"] {
         check(blank, Err("the text is empty"));
     }
-    let what = "line 1: expected the dimension alone, a row of posts such as `o---o`, \
+    let what = "line 1: expected the maze size on its own, a row of posts such as `o---o`, \
                 the six numbers of a cell, or a row of blocks such as `11111`, found ";
     let unknown = [
         ("# My maze\n", "`# My maze`"),
@@ -138,21 +138,17 @@ fn text_that_is_no_maze() {
     let huge = "1".repeat(100 << 20);
     check(
         &huge,
-        Err("104857600 bytes are more than any maze file has (at most 262144)"),
+        Err("the text has 104857600 bytes, the limit is 262144"),
     );
 }
 
-/// Puts an `x` in every place of a good file, one after the other: the error
-/// has to point there or, for a number, to its beginning.
+/// Replaces every character of a valid file by `x`, one at a time: the error points there or,
+/// for a number, to its start.
 #[test]
-fn every_wrong_character_is_found_where_it_is() {
+fn every_invalid_character_is_located() {
     let maze = parse(MAP).expect("a maze").maze;
-    for format in [
-        Format::Udacity,
-        Format::Competition,
-        Format::Num,
-        Format::Blocks,
-    ] {
+    // In a map, an `x` is a wall or a post.
+    for format in Format::ALL.into_iter().filter(|&it| it != Format::Map) {
         let good = print(&maze, format).expect("the usual start and goal");
         for (number, good_line) in good.lines().enumerate() {
             for at in 0..good_line.len() {
@@ -161,23 +157,23 @@ fn every_wrong_character_is_found_where_it_is() {
                 let wrong = lines.join("\n");
                 let Err(ParseError::Unexpected { line, column, .. }) = parse_as(&wrong, format)
                 else {
-                    panic!("line and column are known: {wrong}");
+                    panic!("no line and column: {wrong}");
                 };
-                let begin = match format {
+                let start = match format {
                     Format::Competition | Format::Map | Format::Blocks => at,
                     Format::Udacity | Format::Num => {
                         let before = good_line[..at].rfind([',', ' ']);
                         before.map_or(0, |separator| separator + 1)
                     }
                 };
-                assert_eq!((line, column), (number + 1, begin + 1), "{wrong}");
+                assert_eq!((line, column), (number + 1, start + 1), "{wrong}");
             }
         }
     }
 }
 
 #[test]
-fn a_given_format_is_not_guessed() {
+fn a_given_format_is_not_recognised_again() {
     let error = parse_as(MAP, Format::Competition).expect_err("posts are +");
     assert_eq!(
         error.to_string(),
@@ -188,23 +184,22 @@ fn a_given_format_is_not_guessed() {
 }
 
 #[test]
-fn only_competition_text_holds_marks() {
+fn only_competition_text_stores_marks() {
     let walls = Walls::open(5);
     let start = Maze::new(walls.clone(), Cell::new(1, 0), center(5)).expect("fits");
     let room = Area::new(Cell::new(3, 3), 2, 1).expect("not empty");
     let goal = Maze::new(walls, ZERO, room).expect("fits");
     for format in [Format::Udacity, Format::Map, Format::Num, Format::Blocks] {
+        let message = |maze| print(maze, format).expect_err("no mark").to_string();
         assert_eq!(
-            print(&start, format).expect_err("no mark").to_string(),
-            format!(
-                "the {format} format cannot hold start (1, 0): it has no mark, the start is (0, 0)"
-            )
+            message(&start),
+            format!("the {format} format cannot store start (1, 0): its start is always (0, 0)")
         );
         assert_eq!(
-            print(&goal, format).expect_err("no mark").to_string(),
+            message(&goal),
             format!(
-                "the {format} format cannot hold a goal of 2 x 1 cells at (3, 3): \
-                 it has no mark, the goal is the centre (1 x 1 cells at (2, 2))"
+                "the {format} format cannot store a goal of 2 x 1 cells at (3, 3): \
+                 its goal is always the centre (1 x 1 cells at (2, 2))"
             )
         );
     }
@@ -219,11 +214,9 @@ fn format_names_are_parsed() {
     for format in Format::ALL {
         assert_eq!(format.name().parse(), Ok(format));
     }
+    let error = "ma\tp".parse::<Format>().expect_err("no format");
     assert_eq!(
-        "ma\tp"
-            .parse::<Format>()
-            .expect_err("no format")
-            .to_string(),
+        error.to_string(),
         "unknown maze format `ma\\tp`, expected udacity, competition, map, num or blocks"
     );
 }

@@ -1,0 +1,44 @@
+//! Resource limits of the process, by the operating system.
+
+use rustix::process::{Resource, Rlimit, setrlimit};
+
+use super::super::super::role::{COMPILE_CPU_SECONDS, COMPILE_MEMORY_BYTES, Role};
+
+/// The anonymous file with a robot's initial memory is a file to the kernel. No
+/// ruleset gives a robot more memory.
+const MEMORY_FILE_BYTES: u64 = 1 << 30;
+
+/// Memory that a worker with a pool may write, in bytes: a robot's, compiled code,
+/// and what a compiler takes.
+const RUN_MEMORY_BYTES: u64 = 4 << 30;
+
+/// Sets the resource limits of the process. A limit that cannot be set is skipped: each
+/// is a second line of defence.
+pub fn set_limits(role: Role) {
+    // No core may be written, and few descriptors are needed.
+    limit(Resource::Core, 0, 0);
+    limit(Resource::Nofile, 64, 64);
+    if role == Role::Compile {
+        limit(Resource::Fsize, 0, 0);
+        limit(Resource::As, COMPILE_MEMORY_BYTES, COMPILE_MEMORY_BYTES);
+    } else {
+        // A pool of instances reserves terabytes of address space without using
+        // them, so what can be written is limited instead.
+        limit(Resource::Fsize, MEMORY_FILE_BYTES, MEMORY_FILE_BYTES);
+        limit(Resource::Data, RUN_MEMORY_BYTES, RUN_MEMORY_BYTES);
+    }
+    if role != Role::Run {
+        // The first limit ends it by a signal of its own, which tells the
+        // supervisor why; the second one kills.
+        limit(Resource::Cpu, COMPILE_CPU_SECONDS, COMPILE_CPU_SECONDS + 5);
+    }
+}
+
+fn limit(resource: Resource, current: u64, maximum: u64) {
+    let limit = Rlimit {
+        current: Some(current),
+        maximum: Some(maximum),
+    };
+    // A lower limit that is already there may not be raised, and need not be.
+    let _ = setrlimit(resource, limit);
+}

@@ -1,0 +1,66 @@
+//! Playing a plan with a progress bar, for every command that plays.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use wasmouse_core::record::MatchKey;
+use wasmouse_engine::Executor;
+
+use super::failure::Failure;
+use super::interrupt;
+use crate::contest::{self, Options, Plan, RunError, Sink};
+
+/// Plays the matches of a plan that are wanted, `total` of them, with a progress bar on a
+/// terminal. Ctrl-C ends it early.
+///
+/// # Errors
+///
+/// When the host fails or the sink does.
+pub fn play(
+    plan: &Plan,
+    executor: &dyn Executor,
+    jobs: usize,
+    (wanted, total): (&(dyn Fn(&MatchKey) -> bool + Sync), u64),
+    sink: &mut dyn Sink,
+) -> Result<(), Failure> {
+    let cancelled: &AtomicBool = interrupt::listen()?;
+    let bar = ProgressBar::new(total).with_style(
+        ProgressStyle::with_template("{bar:40} {pos}/{len} matches, {per_sec}, {eta} left")
+            .expect("a constant template"),
+    );
+    let options = Options {
+        jobs,
+        cancelled,
+        wanted,
+        progress: &|| bar.inc(1),
+    };
+    let played = contest::run(plan, executor, &options, sink);
+    bar.finish_and_clear();
+    played.map_err(|error| match &error {
+        RunError::Thread(_) => Failure::internal(error).hint("try fewer threads with --jobs"),
+        RunError::Sink(_) => Failure::internal(error),
+    })
+}
+
+/// Plays all matches of a plan.
+///
+/// # Errors
+///
+/// As [`play`].
+pub fn play_all(
+    plan: &Plan,
+    executor: &dyn Executor,
+    jobs: usize,
+    sink: &mut dyn Sink,
+) -> Result<(), Failure> {
+    play(plan, executor, jobs, (&|_| true, plan.matches()), sink)
+}
+
+/// Whether Ctrl-C was pressed.
+///
+/// # Errors
+///
+/// When the signal cannot be handled.
+pub fn is_interrupted() -> Result<bool, Failure> {
+    Ok(interrupt::listen()?.load(Ordering::Relaxed))
+}

@@ -1,0 +1,63 @@
+//! Text about standings that the table and the page share.
+
+use std::collections::BTreeSet;
+
+use super::escape;
+use crate::contest::{ContestInfo, Mean, Standing, Standings};
+
+/// What is shown where there is no value.
+pub(super) const NONE: &str = "-";
+
+/// Which mazes the ranking is about, and whether it is a partial one.
+pub(super) fn scope(contest: &ContestInfo, standings: &Standings) -> String {
+    let mazes = standings.mazes;
+    if standings.partial {
+        let planned = mazes_planned(contest);
+        format!("partial: ranked over {mazes} of {planned} mazes that every robot has played")
+    } else {
+        format!(
+            "ranked over {mazes} {}",
+            if mazes == 1 { "maze" } else { "mazes" }
+        )
+    }
+}
+
+/// How many mazes the contest has.
+fn mazes_planned(contest: &ContestInfo) -> u64 {
+    let admitted = contest.robots.iter().filter(|it| it.rejection.is_none());
+    // The same robot under two names plays once.
+    let players: BTreeSet<_> = admitted.map(|it| (it.digest, it.variant)).collect();
+    let matches_per_maze = players.len() as u64 * u64::from(contest.seeds.count);
+    contest
+        .matches_planned
+        .checked_div(matches_per_maze)
+        .unwrap_or(0)
+}
+
+/// The rank of a robot.
+pub(super) fn rank(line: &Standing) -> String {
+    line.rank
+        .map_or_else(|| NONE.to_owned(), |rank| rank.to_string())
+}
+
+/// The name of a robot, marked when it was rejected; escaped for terminals.
+pub(super) fn robot(contest: &ContestInfo, line: &Standing) -> String {
+    let name = escape::for_terminal(&line.robot);
+    let mut robots = contest.robots.iter();
+    // A robot that has played was not the one of its name that was rejected.
+    let is_rejected = line.matches == 0
+        && robots.any(|robot| robot.name == line.robot && robot.rejection.is_some());
+    if is_rejected {
+        format!("{name} (rejected)")
+    } else {
+        name
+    }
+}
+
+/// An average in thousandths of a step, in steps with three decimals.
+pub(super) fn mean(thousandths: Option<i64>) -> String {
+    thousandths.map_or_else(
+        || NONE.to_owned(),
+        |value| Mean::fraction(value.into(), 1000).to_string(),
+    )
+}
