@@ -2,7 +2,7 @@
 //! output and standard error.
 //!
 //! After a wanted change, `INSTA_UPDATE=always cargo test -p wasmouse-tests cli`
-//! writes the transcripts anew.
+//! writes the transcripts again.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -49,12 +49,23 @@ fn folder() -> TempDir {
             b"4\n3,5,5,6\n10,3,6,10\n10,9,12,10\n9,5,5,12\n".to_vec(),
         ),
         ("broken.txt", b"4\n1,5,5,6\n10,3,x,10\n".to_vec()),
-        ("letter.txt", b"Dear referee,\n".to_vec()),
+        ("letter.txt", b"Dear judges,\n".to_vec()),
     ];
     for (name, bytes) in files {
         fs::write(folder.path().join(name), bytes).expect("a file");
     }
-    fs::create_dir(folder.path().join("nothing")).expect("a folder");
+    for name in ["nothing", "robots", "mazes", "bad"] {
+        fs::create_dir(folder.path().join(name)).expect("a folder");
+    }
+    for (from, to) in [
+        ("ahead.wasm", "robots/ahead.wasm"),
+        ("wasi.wasm", "robots/wasi.wasm"),
+        ("small.txt", "mazes/small.txt"),
+        ("broken.txt", "mazes/broken.txt"),
+    ] {
+        fs::copy(folder.path().join(from), folder.path().join(to)).expect("a file");
+    }
+    fs::write(folder.path().join("bad/Cargo.toml"), "[package\n").expect("a file");
     folder
 }
 
@@ -113,7 +124,7 @@ fn redacted(text: &str, folder: &Path) -> String {
             &format!(r#""wasmouse": "{version}""#),
             r#""wasmouse": "[VERSION]""#,
         )
-        .replace(&wasmouse::robot::engine_id(), "[ENGINE]");
+        .replace(wasmouse_engine::engine_id().as_str(), "[ENGINE]");
     let mut redacted = String::new();
     for word in text.split_inclusive(|character: char| !character.is_ascii_hexdigit()) {
         let digits = word.trim_end_matches(|character: char| !character.is_ascii_hexdigit());
@@ -169,7 +180,12 @@ fn contests() {
             "run --robot ahead.wasm --maze test_maze_01 --rules udacity-each-run",
             "run talkative.wasm test_maze_01 --log",
             "run trapping.wasm ahead.wasm wasi.wasm empty.wasm test_maze_01",
-            "run trapping.wasm gen:tree:12:1..=21 --ascii --jobs 1",
+            "run trapping.wasm gen:tree:12:1..=50 --ascii --jobs 1",
+            "run trapping.wasm gen:tree:12:1..=50 --ascii --matches",
+            "run ann=ahead.wasm bob=ahead.wasm test_maze_01",
+            "run robots mazes --ascii --lenient -o results.json --html page.html",
+            "verify results.json --robot robots --maze mazes",
+            "run ahead.wasm mazes --lenient --strict",
             "run ahead.wasm trapping.wasm wasi.wasm test_maze_01 --json",
             "run wasi.wasm test_maze_01 --watch",
         ],
@@ -213,6 +229,11 @@ fn contests_of_bad_input() {
             "run flood test_maze_01 --html missing/page.html",
             "run flood test_maze_01 --html nothing",
             "run flood test_maze_01 --html small.txt",
+            "run flood test_maze_01 -o small.txt",
+            "run a=robots test_maze_01",
+            "run flood flood test_maze_01",
+            "run flood --robot missing --maze test_maze_01",
+            "run bad test_maze_01",
         ],
     );
 }
@@ -248,6 +269,7 @@ fn inspections() {
         &[
             "inspect core.wasm",
             "inspect talkative.wasm",
+            "inspect talkative.wasm --measures",
             "inspect talkative.wasm --json",
             "inspect wasi.wasm",
             "inspect wasi.wasm --json",

@@ -1,14 +1,17 @@
-//! Ctrl-C: a contest ends soon and prints what it has, generating ends at once or
-//! between two files, and the exit code says so.
+//! Ctrl-C: a contest ends soon and writes what it has, generating ends at once or between two
+//! files, and the exit code says so.
 
 #![cfg(target_os = "linux")]
 
+use std::collections::HashMap;
 use std::fs;
 use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
+use wasmouse::contest::Results;
+use wasmouse_core::Digest;
 
 use crate::binary::{stdout_of, wasmouse};
 
@@ -53,17 +56,15 @@ fn interrupt(child: &Child) {
 fn generating_mazes_ends_at_once() {
     // 100,000 mazes in debug mode: minutes.
     let mazes = "gen:stretches:12..=20:1..=20000";
-    for command in [&["maze", "check", "--summary"][..], &["run", "flood"]] {
-        let child = start(&[command, &[mazes]].concat());
-        wait("Ctrl-C is handled", || has_thread(child.id(), "ctrl-c"));
-        thread::sleep(Duration::from_millis(300));
-        let interrupted = Instant::now();
-        interrupt(&child);
-        let output = child.wait_with_output().expect("the program ends");
-        assert!(interrupted.elapsed() < Duration::from_secs(20));
-        assert_eq!(output.status.code(), Some(130), "{command:?}: {output:?}");
-        assert!(output.stdout.is_empty(), "{output:?}");
-    }
+    let child = start(&["maze", "check", "--summary", mazes]);
+    wait("Ctrl-C is handled", || has_thread(child.id(), "ctrl-c"));
+    thread::sleep(Duration::from_millis(300));
+    let interrupted = Instant::now();
+    interrupt(&child);
+    let output = child.wait_with_output().expect("the program ends");
+    assert!(interrupted.elapsed() < Duration::from_secs(20));
+    assert_eq!(output.status.code(), Some(130), "{output:?}");
+    assert!(output.stdout.is_empty(), "{output:?}");
 }
 
 #[test]
@@ -78,22 +79,32 @@ fn an_interrupted_folder_of_mazes_holds_whole_files() {
     let output = child.wait_with_output().expect("the program ends");
     let stderr = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(130), "{stderr}");
-    let told = format!("interrupted: wrote {} of 50000 mazes to {path}\n", files());
-    assert_eq!(stderr, told);
+    let expected = format!("interrupted: wrote {} of 50000 mazes to {path}\n", files());
+    assert_eq!(stderr, expected);
     for file in fs::read_dir(&target).expect("the folder") {
         let file = file.expect("an entry").path();
         let text = fs::read_to_string(&file).expect("a file");
-        assert!(wasmouse::maze::format::parse(&text).is_ok(), "{file:?}");
+        assert!(
+            wasmouse_core::maze::format::parse(&text).is_ok(),
+            "{file:?}"
+        );
     }
 }
 
+/// Two robots of very different speed in many mazes: when the contest is interrupted, both have
+/// played about the same mazes, and the standings cover those that both have played.
 #[test]
-fn an_interrupted_contest_prints_what_was_played() {
-    // 100,000 matches of up to 1000 steps: minutes.
-    let robot = ["run", "random", "gen:tree:20:1..=2"];
-    let child = start(&[&robot[..], &["--repeat", "50000", "--json", "--no-cache"]].concat());
+fn an_interrupted_contest_is_ranked_over_the_mazes_that_all_have_played() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("results.json");
+    fs::write(&path, "old").expect("a file");
+    let path = path.to_str().expect("UTF-8");
+    // 60,000 matches: minutes.
+    let robots = ["run", "random", "wall-follower", "gen:tree:20:1..=30000"];
+    let options = ["--json", "--no-cache", "--jobs=2", "--force", "-o", path];
+    let child = start(&[&robots[..], &options].concat());
     wait("matches begin", || has_thread(child.id(), "matches-"));
-    thread::sleep(Duration::from_secs(1));
+    thread::sleep(Duration::from_secs(2));
     let interrupted = Instant::now();
     interrupt(&child);
     let output = child.wait_with_output().expect("the program ends");
@@ -102,21 +113,48 @@ fn an_interrupted_contest_prints_what_was_played() {
     assert!(waited < Duration::from_secs(20), "it took {waited:?}");
     let stderr = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(130), "{stderr}");
-    println!("ended {waited:?} after the signal");
-    let report: Value = serde_json::from_slice(&output.stdout).expect("complete JSON");
-    assert_eq!(report["complete"], false);
-    let played = report["matches"].as_array().expect("matches").len();
-    assert!((1..100_000).contains(&played), "{played} matches");
-    assert_eq!(report["standings"][0]["matches"], played);
-    let told = format!("interrupted: {} matches were not played", 100_000 - played);
-    assert!(stderr.contains(&told), "{stderr}");
+    let results: Results = serde_json::from_slice(&output.stdout).expect("complete JSON");
+    let file = fs::read(path).expect("the file was replaced");
+    assert!(file == output.stdout, "the file has what was printed");
+    let played = results.matches.len() as u64;
+    assert!((1..60_000).contains(&played), "{played} matches");
+    let summary = &results.summary;
+    assert_eq!((summary.matches, summary.complete), (played, false));
+
+    let standings = &summary.standings;
+    assert!(standings.partial);
+    // The mazes that both have played.
+    let mut by_maze: HashMap<Digest, u64> = HashMap::new();
+    for record in &results.matches {
+        *by_maze.entry(record.key.maze).or_default() += 1;
+    }
+    let both = by_maze.values().filter(|&&matches| matches == 2).count() as u64;
+    assert_eq!(standings.mazes, both);
+    assert!(
+        both * 2 + 1024 > played,
+        "{both} of {played} matches are comparable"
+    );
+    for line in &standings.lines {
+        assert_eq!(line.matches, both, "{}", line.robot);
+    }
+    let message = format!(
+        "interrupted after {played} of 60000 matches; standings cover the {both} of 30000 mazes \
+         that every robot has played\n"
+    );
+    assert!(stderr.ends_with(&message), "{stderr}");
 }
 
 /// The second playing is on two threads where the first was on one.
 #[test]
-fn an_interrupted_second_time_says_so() {
+fn an_interrupted_reproduction_says_so() {
     let robot = ["run", "random", "gen:tree:20:1..=2", "--repeat", "3000"];
-    let child = start(&[&robot[..], &["--json", "--no-cache", "--jobs=1", "--twice"]].concat());
+    let child = start(
+        &[
+            &robot[..],
+            &["--json", "--no-cache", "--jobs=1", "--reproduce"],
+        ]
+        .concat(),
+    );
     wait("the second time begins", || {
         has_thread(child.id(), "matches-1")
     });
@@ -124,14 +162,14 @@ fn an_interrupted_second_time_says_so() {
     let output = child.wait_with_output().expect("the program ends");
     let stderr = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(130), "{stderr}");
-    let told = stderr.strip_prefix("interrupted: ").expect("it says so");
-    let (count, rest) = told.split_once(' ').expect("a number of matches");
+    let message = stderr.strip_prefix("interrupted: ").expect("it says so");
+    let (count, rest) = message.split_once(' ').expect("a number of matches");
     assert_eq!(rest, "matches were not played a second time\n");
     let count: u32 = count.parse().expect("a number");
     assert!((1..=6000).contains(&count), "{count}");
     // The first time was played to its end.
-    let report: Value = serde_json::from_slice(&output.stdout).expect("complete JSON");
-    assert_eq!(report["complete"], true);
+    let results: Results = serde_json::from_slice(&output.stdout).expect("complete JSON");
+    assert!(results.summary.complete);
 }
 
 #[test]
@@ -153,15 +191,12 @@ fn an_interrupted_verification_does_not_verify() {
     wait("matches begin", || has_thread(child.id(), "matches-"));
     interrupt(&child);
     let output = child.wait_with_output().expect("the program ends");
-    let stderr = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(130), "{stderr}");
-    let expected = format!(" matches of `{path}` were not played again\n");
-    assert!(stderr.starts_with("interrupted: "), "{stderr}");
-    assert!(stderr.ends_with(&expected), "{stderr}");
+    assert_eq!(output.status.code(), Some(130), "{output:?}");
     let report: Value = serde_json::from_slice(&output.stdout).expect("complete JSON");
     assert_eq!(report["verified"], false);
-    assert_eq!(
-        report["results"][0]["differences"].as_array().map(Vec::len),
-        Some(0)
-    );
+    let file = &report["files"][0];
+    assert_eq!(file["status"], "incomplete");
+    let reason = file["reason"].as_str().expect("a reason");
+    assert!(reason.starts_with("interrupted after "), "{reason}");
+    assert_eq!(file["differences"].as_array().map(Vec::len), Some(0));
 }

@@ -45,6 +45,8 @@ mod precheck;
 // mod readme;
 /// Rejections that depend on the limits or the version.
 mod rejections;
+/// The results document against its JSON Schema.
+mod results_schema;
 /// The example robots, natively, in mazes of every size and shape.
 mod robots_native;
 /// What workers cannot do, tried from inside.

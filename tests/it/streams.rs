@@ -24,7 +24,7 @@ const PRINTING: [&[&str]; 8] = [
 ];
 
 #[test]
-fn a_reader_that_goes_away_is_no_failure() {
+fn a_closed_pipe_is_no_failure() {
     for arguments in PRINTING {
         let mut child = wasmouse()
             .args(arguments)
@@ -44,12 +44,12 @@ fn a_reader_that_goes_away_is_no_failure() {
     }
 }
 
-/// A file that is no robot.
+/// A file that is not a robot.
 const NO_ROBOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml");
 
 #[test]
-fn nobody_has_to_hear_the_talk() {
-    // Unknown mazes and refused robots are told on standard error.
+fn messages_may_be_lost() {
+    // Unknown mazes and rejected robots are reported on standard error.
     for (arguments, code) in [
         (&["maze", "show", "missing"][..], 3),
         (&["run", "flood", "--seed", "-1"], 2),
@@ -80,7 +80,7 @@ fn nobody_has_to_hear_the_talk() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_full_disk_is_a_failure_of_the_host() {
+fn a_full_disk_is_an_internal_error() {
     let full = || {
         File::options()
             .write(true)
@@ -88,7 +88,7 @@ fn a_full_disk_is_a_failure_of_the_host() {
             .expect("Linux has it")
     };
     for arguments in PRINTING {
-        // clap prints the help and does not tell.
+        // clap prints the help, and ignores errors.
         let expected = if arguments.contains(&"--help") { 0 } else { 5 };
         let output = wasmouse()
             .args(arguments)
@@ -102,10 +102,10 @@ fn a_full_disk_is_a_failure_of_the_host() {
             Some(expected),
             "{arguments:?}: {stderr}"
         );
-        let told = stderr.starts_with("error: failed to write standard output: ");
-        assert_eq!(told, expected == 5, "{arguments:?}: {stderr}");
+        let reported = stderr.starts_with("error: failed to write to standard output: ");
+        assert_eq!(reported, expected == 5, "{arguments:?}: {stderr}");
     }
-    // And when that cannot be told either.
+    // And when that cannot be reported either.
     let status = wasmouse()
         .args(["robots"])
         .stdout(full())

@@ -1,4 +1,4 @@
-//! `wasmouse verify` and `wasmouse run --twice`: true results are accepted, and what is
+//! `wasmouse verify` and `wasmouse run --reproduce`: true results are verified, and what has
 //! changed in a result, a robot or a maze is named.
 
 use std::fs;
@@ -6,17 +6,17 @@ use std::io::Write as _;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use serde_json::Value;
+use serde_json::{Value, json};
 use tempfile::TempDir;
-use wasmouse::maze::format::{self, Format};
-use wasmouse::maze::generate::GenSpec;
-use wasmouse::maze::{Cell, Heading, Maze};
-use wasmouse::robot::bundled::find;
+use wasmouse_core::maze::format::{self, Format};
+use wasmouse_core::maze::generate::GenSpec;
+use wasmouse_core::maze::{Cell, Heading, Maze};
+use wasmouse_engine::bundled::find;
 
 use crate::binary::{Ran, ran, stdout_of, wasmouse};
 use crate::hostile::{IMPORT_LOG, Module, wasm};
 
-/// Bundled robots, copies of them, robots that fail, and files that are no robots.
+/// Bundled robots, copies of them, robots that fail, and files that are not robots.
 const ROBOTS: [&str; 21] = [
     "champion",
     "count-expansion",
@@ -69,7 +69,7 @@ fn folder() -> TempDir {
     // An empty section with a name: other bytes, the same robot.
     copy.extend([0, 2, 1, b'x']);
     let spec: GenSpec = "gen:braid:14:5".parse().expect("a specification");
-    let (_, maze) = spec.expand().next().expect("one maze");
+    let maze = spec.expand().next().expect("one maze").generate();
     let own = format::print(&maze, Format::Udacity).expect("a contest maze");
     let files: [(&str, Vec<u8>); 10] = [
         ("robots/copy.wasm", copy),
@@ -113,7 +113,7 @@ fn record(folder: &Path, robots: &[&str], mazes: &[&str]) -> String {
     played.stdout
 }
 
-/// Verifies a text on standard input.
+/// Verifies a text on standard input; returns the exit code and everything that was printed.
 fn verify(folder: &Path, text: &str, options: &[&str]) -> (i32, String) {
     let mut child = command(folder, &["verify", "-"])
         .args(options)
@@ -126,25 +126,25 @@ fn verify(folder: &Path, text: &str, options: &[&str]) -> (i32, String) {
     stdin.write_all(text.as_bytes()).expect("it is read");
     drop(stdin);
     let output = child.wait_with_output().expect("the program ends");
-    let told = [output.stdout, output.stderr].concat();
-    let told = String::from_utf8(told).expect("programs print text");
-    assert!(!told.contains("panicked at"), "{told}");
-    (output.status.code().expect("no signal ended it"), told)
+    let printed = [output.stdout, output.stderr].concat();
+    let printed = String::from_utf8(printed).expect("programs print text");
+    assert!(!printed.contains("panicked at"), "{printed}");
+    (output.status.code().expect("no signal ended it"), printed)
 }
 
-const AT_HAND: [&str; 4] = ["--robot", "robots", "--maze", "mazes"];
+const AVAILABLE: [&str; 4] = ["--robot", "robots", "--maze", "mazes"];
 
 #[test]
 fn a_contest_of_twenty_robots_is_verified() {
     let folder = folder();
     let text = record(folder.path(), &ROBOTS, &MAZES);
     fs::write(folder.path().join("results.json"), &text).expect("a file");
-    let expected = "results.json: verified, 190 matches of 21 robots in 5 mazes\n";
+    let expected = "results.json: verified 190 matches\n";
     for options in [&["--jobs", "1"][..], &["--jobs", "5", "--trust"]] {
         let mut verify = command(folder.path(), &["verify", "results.json"]);
-        assert_eq!(stdout_of(verify.args(AT_HAND).args(options)), expected);
+        assert_eq!(stdout_of(verify.args(AVAILABLE).args(options)), expected);
     }
-    // Names of files mean nothing.
+    // File names mean nothing.
     for (old, new) in [
         ("robots/copy.wasm", "robots/x.wasm"),
         ("mazes/own.txt", "mazes/y.map"),
@@ -153,138 +153,149 @@ fn a_contest_of_twenty_robots_is_verified() {
         fs::rename(path(old), path(new)).expect("a file");
     }
     let mut verify = command(folder.path(), &["verify", "results.json", "--json"]);
-    let report: Value = serde_json::from_str(&stdout_of(verify.args(AT_HAND))).expect("JSON");
+    let report: Value = serde_json::from_str(&stdout_of(verify.args(AVAILABLE))).expect("JSON");
     assert_eq!(report["verified"], true);
-    assert_eq!(report["results"][0]["matches_expected"], 190);
+    assert_eq!(report["files"][0]["status"], "verified");
+    assert_eq!(report["files"][0]["matches_planned"], 190);
 }
 
-/// Changes of one byte and the field that has to be named; `host/src/report/result/tests.rs`
-/// does that for bytes everywhere.
+/// The same values in another text are the same result, with an exit code of its own.
 #[test]
-fn changed_fields_are_named() {
+fn reformatted_results_are_verified() {
     let folder = folder();
-    let robots = [
-        "flood",
-        "flood:1",
-        "random",
-        "robots/copy.wasm",
-        "robots/text.wasm",
-    ];
+    let text = record(
+        folder.path(),
+        &["flood", "robots/text.wasm"],
+        &["mazes/own.txt"],
+    );
+    let json: Value = serde_json::from_str(&text).expect("JSON");
+    // `serde_json` sorts the names of an object, so this is another order too.
+    let sorted = serde_json::to_string(&json).expect("JSON");
+    let indented = serde_json::to_string_pretty(&json).expect("JSON");
+    for other in [
+        sorted,
+        indented,
+        text.replace('\n', "\r\n"),
+        text.clone() + "\n",
+    ] {
+        let (code, printed) = verify(folder.path(), &other, &AVAILABLE);
+        assert_eq!(code, 8, "{printed}");
+        assert!(printed.contains("-: verified 2 matches, but the formatting differs at line "));
+    }
+    let (code, printed) = verify(folder.path(), &text, &AVAILABLE);
+    assert_eq!((code, &*printed), (0, "-: verified 2 matches\n"));
+}
+
+/// Replaces a value in a document and verifies it.
+#[track_caller]
+fn check_change(folder: &Path, json: &Value, pointer: &str, value: Value, expected: (i32, &str)) {
+    let mut changed = json.clone();
+    let place = changed.pointer_mut(pointer);
+    let place = place.unwrap_or_else(|| panic!("{pointer} is in the document"));
+    assert_ne!(*place, value, "{pointer} changes");
+    *place = value;
+    let (code, printed) = verify(folder, &changed.to_string(), &AVAILABLE);
+    let (expected_code, message) = expected;
+    assert_eq!(code, expected_code, "{pointer}: {printed}");
+    assert!(printed.contains(message), "{pointer}: {printed}");
+}
+
+#[test]
+fn changed_values_are_named() {
+    let folder = folder();
+    let robots = ["flood", "flood:1", "random", "robots/text.wasm"];
     let text = record(folder.path(), &robots, &["mazes/own.txt", "gen:tree:12:1"]);
     let json: Value = serde_json::from_str(&text).expect("JSON");
-    let flood = json["robots"][0]["sha256"].as_str().expect("a digest");
-    let own = json["mazes"][0]["sha256"].as_str().expect("a digest");
-    let fuel = json["matches"][0]["steps_fuel"].to_string();
-    let digit = if fuel.starts_with('1') { "2" } else { "1" };
-    let fuel_wrong = fuel.replacen(&fuel[..1], digit, 1);
-    let flood_wrong = flood.replacen(&flood[..1], "x", 1);
-    let own_wrong = own.replacen(&own[..1], "x", 1);
-    let changes: [(&str, &str, i32, &str); 19] = [
-        (
-            "\"schema\": 1",
-            "\"schema\": 2",
-            3,
-            "schema: expected 1, which this version reads, found 2",
-        ),
-        (
-            "\"wasmouse\": \"0",
-            "\"wasmouse\": \"7",
-            1,
-            "  wasmouse: recorded \"7.",
-        ),
-        (
-            "wasmtime-4",
-            "wasmtime-3",
-            1,
-            "  engine: recorded \"wasmtime-3",
-        ),
-        (
-            "\"udacity\"",
-            "\"udacitx\"",
-            3,
-            "ruleset.name: this version has no ruleset `udacitx`",
-        ),
-        (
-            "\"version\": 1",
-            "\"version\": 3",
-            1,
-            "  ruleset.version: recorded 3, here 1\n",
-        ),
-        (
-            "    0,\n    1\n  ]",
-            "    0,\n    5\n  ]",
-            1,
-            "  seeds[1]: recorded 5, in matches[1].seed 1\n",
-        ),
-        ("complete\": true", "complete\": trux", 3, "in `complete`: "),
-        (
-            "\"name\": \"random\"",
-            "\"name\": \"rbndom\"",
-            1,
-            "  robots[2].name: recorded \"rbndom\", in matches[8].robot \"random\"\n",
-        ),
-        (flood, &flood_wrong, 1, "  robots[0].sha256: recorded \"x"),
-        (
-            "\"setting\": 1",
-            "\"setting\": 3",
-            1,
-            "  robots[1].setting: recorded 3, by the end of robots[1].name 1\n",
-        ),
-        (
-            "\"reason\": \"",
-            "\"reason\": \"x",
-            1,
-            "  robots[4].refusal.reason: recorded \"x",
-        ),
-        (own, &own_wrong, 1, "  mazes[0].sha256: recorded \"x"),
-        (
-            "\"dimension\": 14",
-            "\"dimension\": 15",
-            1,
-            "  mazes[0].dimension: recorded 15, here 14\n",
-        ),
-        (
-            "\"verdict\": \"f",
-            "\"verdict\": \"g",
-            1,
-            "  matches[0].verdict: recorded \"ginished\", played \"finished\" (`flood` in `own`, seed 0)\n",
-        ),
-        (
-            &fuel,
-            &fuel_wrong,
-            1,
-            &format!(
-                "  matches[0].steps_fuel: recorded {fuel_wrong}, played {fuel} (`flood` in `own`, seed 0)\n"
-            ),
-        ),
-        (
-            "\"rank\": 1",
-            "\"rank\": 2",
-            1,
-            "  standings[0].rank: recorded 2, counted 1\n",
-        ),
-        (
-            "\n  \"sha256\": \"",
-            "\n  \"sha256\": \"g",
-            1,
-            "  sha256: recorded",
-        ),
-        (
-            ",\n  \"failed\"",
-            ",\n \t\"failed\"",
-            1,
-            "  text: recorded \" \\t\\\"failed\\\": [],\", line ",
-        ),
-        ("\n}\n", "\n}", 1, "line "),
-    ];
-    for (old, new, code, expected) in changes {
-        assert!(text.contains(old), "{old} is not in {text}");
-        let changed = text.replacen(old, new, 1);
-        let (found, told) = verify(folder.path(), &changed, &AT_HAND);
-        assert_eq!(found, code, "{new}: {told}");
-        assert!(told.contains(expected), "{new}: {told}");
-        assert!(!told.contains("verified,"), "{new}: {told}");
-    }
+    let check = |pointer: &str, value: Value, code: i32, message: &str| {
+        check_change(folder.path(), &json, pointer, value, (code, message));
+    };
+    let match_0 = "`flood:reset` in `own`, seed 0: ";
+    check("/version", json!(3), 3, "version");
+    check(
+        "/contest/engine",
+        json!("wasmtime-3"),
+        7,
+        "recorded by engine `wasmtime-3`",
+    );
+    check(
+        "/contest/seeds/count",
+        json!(3),
+        1,
+        "contest.matches_planned: recorded 12, found 18",
+    );
+    check(
+        "/contest/rules/game/budget",
+        json!(999),
+        3,
+        "no such ruleset",
+    );
+    check(
+        "/contest/robots/2/name",
+        json!("rbndom"),
+        1,
+        "summary.standings.lines[",
+    );
+    check("/contest/robots/1/variant", json!(3), 1, "contest");
+    check(
+        "/contest/robots/3/rejection/reason",
+        json!("x"),
+        1,
+        "contest.robots[3].rejection.reason",
+    );
+    check(
+        "/summary/mazes/0/dimension",
+        json!(15),
+        1,
+        "summary.mazes[0].dimension: recorded 15, found 14",
+    );
+    check("/summary/complete", json!(false), 1, "summary");
+    check(
+        "/summary/standings/lines/0/rank",
+        json!(2),
+        1,
+        "summary.standings.lines[0].rank: recorded 2, found 1",
+    );
+    check(
+        "/matches/0/counts/bumps",
+        json!(7),
+        1,
+        &format!("{match_0}counts.bumps: recorded 7, found 0"),
+    );
+    check(
+        "/matches/0/fuel/steps",
+        json!(7),
+        1,
+        &format!("{match_0}fuel.steps: recorded 7, found "),
+    );
+    check(
+        "/matches/0/steps/speed",
+        json!(7),
+        1,
+        &format!("{match_0}steps.speed: recorded 7, found "),
+    );
+    check(
+        "/matches/0/verdict/score/thousandths",
+        json!(7),
+        3,
+        "thousandths",
+    );
+    check(
+        "/matches/0/key/seed",
+        json!(7),
+        3,
+        "the id of a match is not the digest of its key",
+    );
+    let digest = json["matches"][1]["transcript"].clone();
+    check(
+        "/matches/0/transcript",
+        digest,
+        1,
+        &format!("{match_0}transcript: recorded "),
+    );
+    let digest = json["matches"][0]["transcript"].clone();
+    check("/summary/digest", digest, 1, "summary.digest: recorded ");
+    let first = json["matches"][0].clone();
+    check("/matches/1", first, 1, "match: recorded ");
 }
 
 #[test]
@@ -299,24 +310,33 @@ fn changed_robots_and_mazes_are_named() {
         let at = at * (bytes.len() - 1) / 7;
         bytes[at] ^= 1;
         fs::write(&path, &bytes).expect("a file");
-        let (found, told) = verify(folder.path(), &text, &AT_HAND);
+        let (found, printed) = verify(folder.path(), &text, &AVAILABLE);
         fs::write(&path, &intact).expect("a file");
-        assert_eq!(found, code, "{file}, byte {at}: {told}");
-        assert!(told.contains(expected), "{file}, byte {at}: {told}");
+        assert_eq!(found, code, "{file}, byte {at}: {printed}");
+        assert!(printed.contains(expected), "{file}, byte {at}: {printed}");
     };
     for at in 0..=7 {
-        let expected = ", of `robots/copy.wasm` \"";
-        check("robots/copy.wasm", at, 1, expected);
+        check(
+            "robots/copy.wasm",
+            at,
+            1,
+            "  contest.robots[0].digest: recorded ",
+        );
         check(
             "robots/trapping.wasm",
             at,
             1,
-            "  robots[1].sha256: recorded \"",
+            "  contest.robots[1].digest: recorded ",
         );
     }
-    // Most changes of a maze file leave no maze, which is passed over in a folder.
-    check("mazes/own.txt", 0, 3, "\n  mazes[0] `own`, sha256 ");
-    // Another maze: of one wall, both cells have to know.
+    // Most changes of a maze file leave no maze, and such a file is skipped in a folder.
+    check(
+        "mazes/own.txt",
+        0,
+        3,
+        "  maze `own` was not found (SHA-256 ",
+    );
+    // Another maze: both cells of a wall have to agree.
     let path = folder.path().join("mazes/own.txt");
     let maze = fs::read_to_string(&path).expect("a file");
     let parsed = format::parse(&maze).expect("a maze").maze;
@@ -326,29 +346,30 @@ fn changed_robots_and_mazes_are_named() {
     let other = Maze::new(walls, parsed.start(), parsed.goal()).expect("a maze");
     let other = format::print(&other, Format::Udacity).expect("a contest maze");
     fs::write(&path, other).expect("a file");
-    let (code, told) = verify(folder.path(), &text, &AT_HAND);
-    assert_eq!(code, 1, "{told}");
-    assert!(told.contains("  mazes[0].sha256: recorded \""), "{told}");
-    assert!(told.contains("of `mazes/own.txt` \""), "{told}");
+    let (code, printed) = verify(folder.path(), &text, &AVAILABLE);
+    assert_eq!(code, 1, "{printed}");
+    assert!(
+        printed.contains("  summary.mazes[0].digest: recorded "),
+        "{printed}"
+    );
 }
 
 #[test]
-fn what_is_not_at_hand_is_named() {
+fn what_is_not_found_is_named() {
     let folder = folder();
     let robots = ["robots/copy.wasm:1", "flood", "robots/text.wasm"];
     let text = record(folder.path(), &robots, &["mazes/own.txt", "gen:tree:12:4"]);
-    let (code, told) = verify(folder.path(), &text, &["--robot", "robots/text.wasm"]);
-    assert_eq!(code, 3, "{told}");
+    let (code, printed) = verify(folder.path(), &text, &["--robot", "robots/text.wasm"]);
+    assert_eq!(code, 3, "{printed}");
     for expected in [
-        "-: not verified\n",
-        "error: robots or mazes of result `-` are not at hand:\n",
-        "  robots[0] `copy:1`, sha256 ",
-        "  mazes[0] `own`, sha256 ",
-        "hint: name their files or folders with --robot and --maze\n",
+        "-: not verified: required robots or mazes were not found\n",
+        "  robot `copy:1` was not found (SHA-256 ",
+        "  maze `own` was not found (SHA-256 ",
+        "hint: give their files or folders with --robot and --maze\n",
     ] {
-        assert!(told.contains(expected), "{told}");
+        assert!(printed.contains(expected), "{printed}");
     }
-    assert_eq!(told.matches("sha256").count(), 2, "{told}");
+    assert_eq!(printed.matches("SHA-256").count(), 2, "{printed}");
 }
 
 /// Several results, of which some are good.
@@ -358,9 +379,10 @@ fn the_worst_result_decides() {
     let text = record(folder.path(), &["flood"], &["test_maze_01"]);
     let files = [
         ("good.json", text.clone()),
-        ("false.json", text.replace("\"bumps\": 0", "\"bumps\": 1")),
+        ("false.json", text.replace("\"bumps\":0", "\"bumps\":1")),
         ("broken.json", text[..text.len() / 2].to_owned()),
     ];
+    assert_ne!(files[1].1, text);
     for (name, text) in files {
         fs::write(folder.path().join(name), text).expect("a file");
     }
@@ -370,26 +392,27 @@ fn the_worst_result_decides() {
             stdout,
             stderr,
         } = ran(command(folder.path(), &["verify"]).args(files));
-        let told = stdout + &stderr;
-        assert_eq!(status.code(), Some(code), "{told}");
+        let printed = stdout + &stderr;
+        assert_eq!(status.code(), Some(code), "{printed}");
         for expected in expected {
-            assert!(told.contains(expected), "{told}");
+            assert!(printed.contains(expected), "{printed}");
         }
     };
-    let good = "good.json: verified, 2 matches of 1 robot in 1 maze\n";
-    let wrong = "false.json: 2 differences\n  matches[0].bumps: recorded 1, played 0";
-    let broken = "error: failed to read result `broken.json`: line ";
+    let good = "good.json: verified 2 matches\n";
+    let wrong =
+        "false.json: 2 differences\n  `flood:reset` in `test_maze_01`, seed 0: counts.bumps";
+    let broken = "error: failed to read result `broken.json`: ";
     check(&["good.json", "false.json"], 1, &[good, wrong]);
     check(
         &["broken.json", "false.json", "good.json"],
         3,
-        &[good, wrong, broken, "broken.json: not verified\n"],
+        &[good, wrong, broken, "broken.json: not verified"],
     );
     check(&["missing.json", "good.json"], 3, &[good, "`missing.json`"]);
 }
 
 #[test]
-fn the_same_twice_is_as_once() {
+fn a_contest_is_reproduced_in_another_order() {
     let folder = folder();
     let arguments = ["--json", "--lenient", "--repeat", "2"];
     let robots = [
@@ -399,22 +422,24 @@ fn the_same_twice_is_as_once() {
         "robots/trapping.wasm",
         "robots/wasi.wasm",
     ];
-    let run = |jobs: &str, twice: &[&str]| {
+    let run = |jobs: &str, reproduce: &[&str]| {
         let mut run = command(folder.path(), &["run", "--jobs", jobs]);
-        let played = ran(run.args(arguments).args(robots).args(MAZES).args(twice));
+        let played = ran(run.args(arguments).args(robots).args(MAZES).args(reproduce));
         assert_eq!(played.status.code(), Some(4), "{}", played.stderr);
         (played.stdout, played.stderr)
     };
-    let expected = run("2", &[]);
+    let (stdout, stderr) = run("2", &[]);
     for jobs in ["1", "2", "3"] {
-        assert!(run(jobs, &["--twice"]) == expected, "{jobs} threads");
+        let again = run(jobs, &["--reproduce"]);
+        assert!(again.0 == stdout, "{jobs} threads");
+        assert_eq!(again.1, format!("{stderr}reproduced 40 matches\n"));
     }
 }
 
-/// Something between the two times has to go wrong for a difference. Here it is a cache
-/// that has the code of one robot under the name of another.
+/// Something has to go wrong between the two times for a difference. Here it is a cache that
+/// has the code of one robot under the name of another.
 #[test]
-fn what_is_not_the_same_twice_is_named() {
+fn what_is_not_reproducible_is_named() {
     let folder = folder();
     let cached = |robot: &str, name: &str| {
         let cache = folder.path().join(name);
@@ -424,33 +449,24 @@ fn what_is_not_the_same_twice_is_named() {
         let file = files.next().expect("a compiled robot").expect("a file");
         file.path()
     };
-    for robot in ["flood", "robots/copy.wasm"] {
-        let one = cached(robot, &format!("one-{}", robot.len()));
-        let other = cached("dfs", &format!("other-{}", robot.len()));
+    for (robot, name) in [("flood", "flood:reset"), ("robots/copy.wasm", "copy")] {
+        let one = cached(robot, &format!("one-{name}"));
+        let other = cached("dfs", &format!("other-{name}"));
         fs::copy(&other, &one).expect("a file");
         let cache = one.parent().expect("a folder");
-        let run = |options: &[&str]| {
-            let mut run = command(
-                folder.path(),
-                &["run", robot, "test_maze_01", "--seed", "5"],
-            );
-            ran(run.args(options).env("WASMOUSE_CACHE", cache))
-        };
-        let once = run(&[]);
-        assert_eq!(once.status.code(), Some(0), "{}", once.stderr);
-        let twice = run(&["--twice"]);
-        assert_eq!(twice.status.code(), Some(5), "{}", twice.stderr);
-        assert_eq!(twice.stdout, "", "no result is printed");
-        let name = robot
-            .trim_start_matches("robots/")
-            .trim_end_matches(".wasm");
-        for expected in [
-            "error: the same contest played twice was not the same:\n",
-            "\n  matches[0].steps_fuel: first ",
-            &format!(" (`{name}` in `test_maze_01`, seed 5)\n"),
-            "\n  standings[0].mean_score: first ",
-        ] {
-            assert!(twice.stderr.contains(expected), "{}", twice.stderr);
-        }
+        let mut run = command(
+            folder.path(),
+            &["run", robot, "test_maze_01", "--seed", "5"],
+        );
+        let run = run.args(["--reproduce", "-o", "kept.json", "--force"]);
+        let played = ran(run.env("WASMOUSE_CACHE", cache));
+        assert_eq!(played.status.code(), Some(1), "{}", played.stderr);
+        // Results come first, and are not lost.
+        assert!(played.stdout.contains("finished"), "{}", played.stdout);
+        assert!(folder.path().join("kept.json").is_file());
+        let first = format!("not reproducible: `{name}` in `test_maze_01`, seed 5: ");
+        assert!(played.stderr.contains(&first), "{}", played.stderr);
+        let count = "values differ when the contest is played again";
+        assert!(played.stderr.contains(count), "{}", played.stderr);
     }
 }

@@ -31,7 +31,7 @@ enum Command {
         #[arg(long)]
         check: bool,
     },
-    /// Play the hostile corpus and print what came of each case; `--help` tells more.
+    /// Play the hostile corpus and print the outcome of each case; see `--help`.
     #[command(disable_help_flag = true)]
     Corpus {
         /// Arguments for the program `corpus`.

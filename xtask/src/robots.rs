@@ -9,7 +9,7 @@ use crate::sources::{robot_names, sha256, sources_sha256};
 use crate::step::{Step, wasmouse_binary};
 
 /// Builds every robot of `example-robots` into `output` as `NAME.wasm`, with a
-/// `wasmouse` binary that is there already.
+/// `wasmouse` binary that already exists.
 ///
 /// # Errors
 ///

@@ -4,9 +4,10 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput};
-use wasmouse::maze::Maze;
-use wasmouse::robot::{Host, INTERFACE_VERSION, Recorder, Robot, engine_config};
-use wasmouse::sim::{Limits, Ruleset};
+use wasmouse_core::game::{GameRules, Ruleset};
+use wasmouse_core::record::{MatchSpec, trace};
+use wasmouse_engine::admission::INTERFACE_VERSION;
+use wasmouse_engine::{CompiledRobot, Limits, Recording, Runtime, engine_config};
 use wasmtime::component::{Component, ComponentType, Lift, Linker, Lower, TypedFunc};
 use wasmtime::{Engine, Store};
 
@@ -97,54 +98,62 @@ impl Bare {
     }
 }
 
-/// The smallest robot in the first maze, ready to be played.
+/// A robot in the first maze, ready to be played.
 pub struct Drive {
-    host: Host,
-    robot: Robot,
-    maze: Maze,
-    rules: Ruleset,
-    recorder: Recorder,
+    runtime: Runtime,
+    robot: CompiledRobot,
+    spec: MatchSpec,
+    recording: Recording,
 }
 
 impl Drive {
     /// Admits the robot of that component.
     pub fn new(component: &[u8]) -> Self {
-        let host = stage::host(1);
-        let robot = host.admit(component).expect("an admissible robot");
-        let (_, maze) = stage::match_mazes().swap_remove(0);
-        Self {
-            host,
-            robot,
-            maze,
-            rules: Ruleset::default(),
-            recorder: Recorder::default(),
-        }
+        Self::with_rules(component, GameRules::default())
     }
 
-    /// The same with a budget of so many steps.
-    pub fn with_budget(self, budget: u32) -> Self {
-        let rules = Ruleset {
+    /// The same with a budget of that many steps.
+    pub fn with_budget(component: &[u8], budget: u32) -> Self {
+        let rules = GameRules {
             budget,
-            ..self.rules
+            ..GameRules::default()
         };
-        Self { rules, ..self }
+        Self::with_rules(component, rules)
+    }
+
+    fn with_rules(component: &[u8], game: GameRules) -> Self {
+        let runtime = stage::runtime();
+        let robot = runtime.admit(component).expect("an admissible robot");
+        let (_, maze) = stage::match_mazes().swap_remove(0);
+        let rules = Ruleset {
+            game,
+            ..Ruleset::default()
+        };
+        Self {
+            spec: stage::spec(&robot, (&maze, 0), &rules.into()),
+            runtime,
+            robot,
+            recording: Recording::default(),
+        }
     }
 
     /// One match.
     pub fn play(&mut self) {
-        let recorder = &mut self.recorder;
+        let recording = &mut self.recording;
         black_box(stage::play(
-            &self.host,
+            &self.runtime,
             &self.robot,
-            (&self.maze, 0),
-            &self.rules,
-            recorder,
+            &self.spec,
+            recording,
         ));
     }
 
     /// What the robot saw in its last match.
     pub fn readings(&self) -> Vec<Readings> {
-        let steps = self.recorder.trace.steps().iter();
+        let MatchSpec { maze, rules, .. } = &self.spec;
+        let transcript = &self.recording.transcript;
+        let (_, trace) = trace(maze, &rules.game, transcript).expect("a match by the rules");
+        let steps = trace.steps().iter();
         let seen = steps.map(|step| Readings {
             left: step.sensors.left.into(),
             front: step.sensors.front.into(),
@@ -171,10 +180,10 @@ pub fn bench(criterion: &mut Criterion) {
     group.finish();
 
     let mut group = criterion.benchmark_group("first answer");
-    let mut smallest = Drive::new(&driver).with_budget(1);
+    let mut smallest = Drive::with_budget(&driver, 1);
     group.bench_function("smallest robot", |b| b.iter(|| smallest.play()));
-    let flood = wasmouse::robot::bundled::find("flood").expect("a bundled robot");
-    let mut flood = Drive::new(flood.component).with_budget(1);
+    let flood = wasmouse_engine::bundled::find("flood").expect("a bundled robot");
+    let mut flood = Drive::with_budget(flood.component, 1);
     group.bench_function("flood", |b| b.iter(|| flood.play()));
     group.finish();
 }

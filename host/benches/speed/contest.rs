@@ -1,59 +1,92 @@
 //! Whole contests: matches per second, in this process and in workers.
 
-use std::hint::black_box;
+use std::io;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use criterion::{Criterion, SamplingMode, Throughput};
-use wasmouse::contest::{Contest, ContestMaze, Entrant};
-use wasmouse::robot::{Digest, Referee, Trust, bundled};
-use wasmouse::sim::Ruleset;
+use wasmouse::contest::{ContestMatch, Entrant, MazeSource, Options, Plan, Seeds, Sink, run};
+use wasmouse_core::Digest;
+use wasmouse_core::game::Ruleset;
+use wasmouse_engine::{Executor, InProcess, Limits, Sandboxed, bundled};
 
 use super::stage;
 
-/// A contest with a referee that has admitted its robots.
+/// A contest with an executor that has admitted its robots.
 pub struct Stage {
-    contest: Contest,
-    referee: Referee,
+    plan: Plan,
+    executor: Box<dyn Executor>,
+}
+
+/// Where robots run.
+#[derive(Clone, Copy)]
+pub enum Place {
+    /// In this process.
+    Here,
+    /// In worker processes.
+    Workers,
 }
 
 impl Stage {
-    /// Those bundled robots in those mazes, on up to `threads` threads, run as the
-    /// host's own or as a stranger's.
-    pub fn new(robots: &[&str], mazes: &str, threads: u32, trust: Trust) -> Self {
-        let rules = Ruleset::default();
-        let referee = stage::referee(threads);
-        let entrants = robots.iter().map(|name| {
+    /// Those bundled robots in those mazes, on up to `jobs` threads.
+    pub fn new(robots: &[(&str, u32)], mazes: &str, jobs: u32, place: Place) -> Self {
+        let rules = Arc::new(Ruleset::default());
+        let limits = Limits::default();
+        let executor: Box<dyn Executor> = match place {
+            Place::Here => Box::new(InProcess::new(limits, jobs, None).expect("address space")),
+            Place::Workers => {
+                let rules = Arc::clone(&rules);
+                let executor = Sandboxed::new(rules, limits, stage::workers(), None);
+                Box::new(executor.expect("a worker"))
+            }
+        };
+        let entrants = robots.iter().map(|&(name, variant)| {
             let component = bundled::find(name).expect("a bundled robot").component;
-            let admission = referee.admit(component, trust).expect("the host works");
+            let admission = executor.admit(component).expect("the host works");
             Entrant {
-                name: (*name).to_owned(),
+                name: name.to_owned(),
                 digest: Digest::of(component),
-                setting: 0,
+                variant,
                 admission: admission.map(Arc::new).map_err(Arc::new),
             }
         });
-        let contest = Contest {
+        let mazes = stage::generated(mazes).into_iter();
+        let plan = Plan {
             entrants: entrants.collect(),
-            mazes: stage::generated(mazes)
-                .into_iter()
-                .map(|(name, maze)| ContestMaze::new(name, maze, &rules))
+            mazes: mazes
+                .map(|(name, maze)| MazeSource::Loaded {
+                    name,
+                    maze: Arc::new(maze),
+                })
                 .collect(),
-            seeds: vec![0],
+            seeds: Seeds { first: 0, count: 1 },
             rules,
         };
-        Self { contest, referee }
+        Self { plan, executor }
     }
 
     /// Plays all of it.
-    pub fn play(&self, threads: usize) {
+    pub fn play(&self, jobs: usize) {
         let cancelled = AtomicBool::new(false);
-        let played = self
-            .contest
-            .run(&self.referee, threads, &cancelled, &|| ())
-            .expect("there are threads");
-        assert_eq!(played.results.len(), self.contest.matches());
-        black_box(played);
+        let options = Options {
+            jobs,
+            cancelled: &cancelled,
+            wanted: &|_| true,
+            progress: &|| (),
+        };
+        let mut count = Count(0);
+        run(&self.plan, &*self.executor, &options, &mut count).expect("the host works");
+        assert_eq!(count.0, self.plan.matches());
+    }
+}
+
+/// Counts matches.
+struct Count(u64);
+
+impl Sink for Count {
+    fn played(&mut self, _: &ContestMatch) -> io::Result<()> {
+        self.0 += 1;
+        Ok(())
     }
 }
 
@@ -61,12 +94,12 @@ impl Stage {
 pub fn bench(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("contest");
     group.sampling_mode(SamplingMode::Flat);
-    for (trust, place) in [(Trust::Trusted, "here"), (Trust::Stranger, "in workers")] {
-        let stage = Stage::new(&["flood", "dfs"], "gen:tree:16:1..=100", 2, trust);
-        group.throughput(Throughput::Elements(stage.contest.matches() as u64));
-        for threads in [1, 2] {
-            group.bench_function(format!("200 matches on {threads} threads {place}"), |b| {
-                b.iter(|| stage.play(threads));
+    for (place, name) in [(Place::Here, "here"), (Place::Workers, "in workers")] {
+        let stage = Stage::new(&[("flood", 0), ("dfs", 0)], "gen:tree:16:1..=100", 2, place);
+        group.throughput(Throughput::Elements(stage.plan.matches()));
+        for jobs in [1, 2] {
+            group.bench_function(format!("200 matches on {jobs} threads {name}"), |b| {
+                b.iter(|| stage.play(jobs));
             });
         }
     }

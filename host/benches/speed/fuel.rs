@@ -4,11 +4,12 @@
 //! whose only step is an endless loop of one kind of work; it ends when the fuel of the
 //! step is used up, so its time over its fuel is the price of that work.
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use wasmouse::robot::componentize::{CONTROLLER_EXPORTS, JOURNAL_IMPORT, componentize};
-use wasmouse::robot::{FaultKind, FuelLimit, Host, Recorder, Robot, Verdict};
-use wasmouse::sim::{Limits, Ruleset};
+use wasmouse_core::game::{FaultKind, FuelLimit, Ruleset, SandboxLimits, Verdict};
+use wasmouse_engine::admission::{CONTROLLER_EXPORTS, JOURNAL_IMPORT, componentize};
+use wasmouse_engine::{Limits, Recording, Runtime};
 
 use super::stage;
 
@@ -413,19 +414,23 @@ pub fn print() {
 
 /// Nanoseconds of a unit of fuel in matches of flood, which compute rather than call.
 fn flood() -> f64 {
-    let host = stage::host(1);
-    let robot = stage::robot(&host, "flood");
-    let rules = Ruleset::default();
-    let mut recorder = Recorder::default();
+    let runtime = stage::runtime();
+    let robot = stage::robot(&runtime, "flood");
+    let rules = Arc::new(Ruleset::default());
+    let mut recording = Recording::default();
     let mazes = stage::match_mazes();
+    let specs: Vec<_> = mazes
+        .iter()
+        .map(|(_, maze)| stage::spec(&robot, (maze, 1), &rules))
+        .collect();
     let mut best = f64::INFINITY;
     for _ in 0..50 {
         let (mut time, mut fuel) = (Duration::ZERO, 0);
-        for (_, maze) in &mazes {
+        for spec in &specs {
             let begin = Instant::now();
-            let outcome = stage::play(&host, &robot, (maze, 1), &rules, &mut recorder);
+            let (_, used) = stage::play(&runtime, &robot, spec, &mut recording);
             time += begin.elapsed();
-            fuel += outcome.fuel.start + outcome.fuel.steps;
+            fuel += used.start + used.steps;
         }
         best = best.min(nanoseconds(time, fuel));
     }
@@ -445,26 +450,28 @@ fn price(component: &[u8], name: &str) -> f64 {
 }
 
 fn time(component: &[u8], step_fuel: u64, name: &str) -> Duration {
-    let limits = Limits {
+    let sandbox = SandboxLimits {
         step_fuel_max: step_fuel,
-        ..Limits::default()
+        ..SandboxLimits::default()
     };
-    let rules = Ruleset {
-        limits,
+    let rules = Arc::new(Ruleset {
+        sandbox,
         ..Ruleset::default()
-    };
-    let host = Host::new(limits, 1, None).expect("address space for a match");
-    let robot: Robot = match host.admit(component) {
+    });
+    let limits = Limits::with_sandbox(sandbox);
+    let runtime = Runtime::new(limits, 1, None).expect("address space for a match");
+    let robot = match runtime.admit(component) {
         Ok(robot) => robot,
-        Err(refusal) => panic!("{name}: {refusal}"),
+        Err(rejection) => panic!("{name}: {rejection}"),
     };
     let (_, maze) = stage::match_mazes().swap_remove(0);
-    let mut recorder = Recorder::default();
+    let spec = stage::spec(&robot, (&maze, 0), &rules);
+    let mut recording = Recording::default();
     let begin = Instant::now();
-    let outcome = stage::play(&host, &robot, (&maze, 0), &rules, &mut recorder);
+    let (verdict, _) = stage::play(&runtime, &robot, &spec, &mut recording);
     let took = begin.elapsed();
-    let Verdict::Fault(fault) = &outcome.verdict else {
-        panic!("{name}: {:?}", outcome.verdict);
+    let Verdict::Fault { fault } = &verdict else {
+        panic!("{name}: {verdict:?}");
     };
     assert_eq!(
         fault.kind,

@@ -1,26 +1,29 @@
 //! The flood robot without WebAssembly: the same source, compiled into the
-//! benchmark and driven by the host's own simulation and trace.
+//! benchmark and driven by the core's simulation.
 //!
 //! What a match costs beyond this is the price of the sandbox.
 
 use robot_flood::Flood;
-use wasmouse::maze::{Maze, Turn};
-use wasmouse::sim::{Action, Ruleset, Sensors, Simulation, Trace};
+use wasmouse_core::game::{Action, GameRules, Sensors, Simulation};
+use wasmouse_core::maze::{Maze, Turn};
+use wasmouse_core::record::Transcript;
 use wasmouse_sdk as sdk;
 use wasmouse_sdk::Robot as _;
 
-/// Plays one match; the trace tells how it went.
-pub fn play(maze: &Maze, rules: &Ruleset, variant: u32, trace: &mut Trace) {
+/// Plays one match and leaves the robot's actions in the transcript.
+pub fn play(maze: &Maze, rules: &GameRules, variant: u32, transcript: &mut Transcript) {
+    transcript.clear();
     let mut robot = Flood::start(&briefing(maze, rules, variant));
-    let mut simulation = Simulation::new(maze, rules, trace);
-    while simulation.end().is_none() {
-        let action = robot.next_move(readings(simulation.sense()));
-        simulation.apply(answer(action));
+    let mut simulation = Simulation::new(maze, rules);
+    while !simulation.has_ended() {
+        let action = action(robot.next_move(readings(simulation.sense())));
+        simulation.apply(action);
+        transcript.push(action);
     }
 }
 
-/// What the host tells a robot, as far as contest mazes differ.
-fn briefing(maze: &Maze, rules: &Ruleset, variant: u32) -> sdk::Briefing {
+/// The briefing of a robot, as far as contest mazes differ.
+fn briefing(maze: &Maze, rules: &GameRules, variant: u32) -> sdk::Briefing {
     let briefing = sdk::Briefing {
         variant,
         ..sdk::Briefing::contest(maze.dimension().into())
@@ -37,7 +40,7 @@ fn readings(sensors: Sensors) -> sdk::Sensors {
     }
 }
 
-fn answer(action: sdk::Action) -> Action {
+fn action(action: sdk::Action) -> Action {
     match action {
         sdk::Action::Move(sdk::Move { turn, advance }) => Action::Move {
             turn: match turn {

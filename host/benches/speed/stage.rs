@@ -1,13 +1,16 @@
-//! What the benchmarks play with: hosts, robots and mazes.
+//! What the benchmarks play with: runtimes, robots and mazes.
 
-use wasmouse::maze::generate::GenSpec;
-use wasmouse::maze::{Maze, bundled, format};
-use wasmouse::robot::bundled::find;
-use wasmouse::robot::componentize::componentize;
-use wasmouse::robot::{
-    Executable, Game, Host, Isolation, Outcome, PATIENCE, Recorder, Referee, Robot, Workers,
-};
-use wasmouse::sim::{Limits, Ruleset};
+use std::sync::Arc;
+
+use wasmouse_core::Digest;
+use wasmouse_core::game::{Ruleset, Verdict};
+use wasmouse_core::maze::generate::GenSpec;
+use wasmouse_core::maze::{Maze, bundled, format};
+use wasmouse_core::record::{FuelUse, MatchKey, MatchSpec};
+use wasmouse_engine::admission::componentize;
+use wasmouse_engine::bundled::find;
+use wasmouse_engine::sandbox::{Executable, PATIENCE, WorkerOptions};
+use wasmouse_engine::{CompiledRobot, Limits, Recording, Runtime, engine_id};
 
 /// The smallest robot that drives: one cell ahead, or a turn to the right at a wall.
 const DRIVER: &str = r#"(module
@@ -23,25 +26,18 @@ const DRIVER: &str = r#"(module
         (i32.store8 (i32.const 18) (local.get $clear))
         (i32.const 16)))"#;
 
-/// A host for that many matches at the same time, without a cache.
-pub fn host(matches: u32) -> Host {
-    Host::new(Limits::default(), matches, None).expect("address space for a few matches")
+/// A runtime for one match at a time, without a cache.
+pub fn runtime() -> Runtime {
+    Runtime::new(Limits::default(), 1, None).expect("address space for a match")
 }
 
-/// A referee for that many matches at the same time, without a cache, whose workers are
-/// the binary that cargo built beside the benchmark.
-pub fn referee(matches: u32) -> Referee {
-    let workers = Workers {
+/// Workers that are the binary that cargo built beside the benchmark.
+pub fn workers() -> WorkerOptions {
+    WorkerOptions {
         executable: Executable::at(env!("CARGO_BIN_EXE_wasmouse")),
         patience: PATIENCE,
         require_sandbox: false,
-    };
-    Referee::new(
-        Ruleset::default(),
-        matches,
-        None,
-        Isolation::Workers(workers),
-    )
+    }
 }
 
 /// The component of the smallest robot.
@@ -51,9 +47,10 @@ pub fn driver() -> Vec<u8> {
 }
 
 /// The bundled robot of that name.
-pub fn robot(host: &Host, name: &str) -> Robot {
+pub fn robot(runtime: &Runtime, name: &str) -> CompiledRobot {
     let robot = find(name).expect("a bundled robot");
-    host.admit(robot.component)
+    runtime
+        .admit(robot.component)
         .expect("bundled robots are admitted")
 }
 
@@ -71,22 +68,40 @@ pub fn match_mazes() -> Vec<(String, Maze)> {
 /// The mazes of a specification, with their names.
 pub fn generated(specification: &str) -> Vec<(String, Maze)> {
     let specification: GenSpec = specification.parse().expect("a specification");
-    specification.expand().collect()
+    let mazes = specification.expand();
+    mazes
+        .map(|maze| (maze.to_string(), maze.generate()))
+        .collect()
 }
 
-/// Plays one match with seed 0.
+/// A match with seed 0.
+pub fn spec(
+    robot: &CompiledRobot,
+    (maze, variant): (&Maze, u32),
+    rules: &Arc<Ruleset>,
+) -> MatchSpec {
+    MatchSpec {
+        key: MatchKey {
+            engine: engine_id().digest(),
+            rules: rules.digest(),
+            robot: *robot.digest(),
+            variant,
+            maze: Digest::of(&maze.identity_bytes()),
+            seed: 0,
+        },
+        maze: Arc::new(maze.clone()),
+        rules: Arc::clone(rules),
+    }
+}
+
+/// Plays a match.
 pub fn play(
-    host: &Host,
-    robot: &Robot,
-    (maze, setting): (&Maze, u32),
-    rules: &Ruleset,
-    recorder: &mut Recorder,
-) -> Outcome {
-    let game = Game {
-        maze,
-        rules,
-        seed: 0,
-        setting,
-    };
-    host.play(robot, &game, recorder).expect("the host works")
+    runtime: &Runtime,
+    robot: &CompiledRobot,
+    spec: &MatchSpec,
+    recording: &mut Recording,
+) -> (Verdict, FuelUse) {
+    let ran = runtime.run(robot, spec, recording);
+    let (result, fuel) = ran.expect("the host works");
+    (result.verdict, fuel)
 }

@@ -4,15 +4,17 @@
 //! A missed target is no failure, because a busy machine misses them too.
 
 use std::hint::black_box;
+use std::sync::Arc;
 use std::time::Duration;
 use std::{env, fs};
 
-use wasmouse::maze::Maze;
-use wasmouse::robot::{Host, Recorder, Robot, Trust, bundled};
-use wasmouse::sim::{Ruleset, Trace};
+use wasmouse_core::game::Ruleset;
+use wasmouse_core::maze::Maze;
+use wasmouse_core::record::Transcript;
+use wasmouse_engine::{CompiledRobot, Recording, Runtime, bundled};
 
 use super::boundary::{Bare, Drive};
-use super::contest::Stage;
+use super::contest::{Place, Stage};
 use super::pairs::{alone, side_by_side};
 use super::{native, process, stage};
 
@@ -80,46 +82,45 @@ fn first_answer() {
         ("smallest robot", stage::driver()),
         ("flood", flood.to_vec()),
     ] {
-        let mut drive = Drive::new(&component).with_budget(1);
+        let mut drive = Drive::with_budget(&component, 1);
         let time = alone(10_000, || drive.play());
         time_row(&format!("instance to first answer, {name}"), most, time);
     }
 }
 
-/// In both settings: 1 thinks more in each step than 0.
+/// In both variants: `certain` computes more in each step than `reset`.
 fn matches() {
-    let host = stage::host(1);
-    let flood = stage::robot(&host, "flood");
+    let runtime = stage::runtime();
+    let flood = stage::robot(&runtime, "flood");
     let mazes = stage::match_mazes();
-    for setting in [0, 1] {
+    for (variant, variant_name) in [(0, "reset"), (1, "certain")] {
         for (name, maze) in &mazes {
-            one_match(
-                &host,
-                &flood,
-                (maze, setting),
-                &format!("{setting}, {name}"),
-            );
+            let name = format!("{variant_name}, {name}");
+            one_match(&runtime, &flood, (maze, variant), &name);
         }
     }
 }
 
-fn one_match(host: &Host, flood: &Robot, (maze, setting): (&Maze, u32), name: &str) {
-    let rules = Ruleset::default();
-    let mut recorder = Recorder::default();
-    let mut trace = Trace::default();
+fn one_match(runtime: &Runtime, flood: &CompiledRobot, (maze, variant): (&Maze, u32), name: &str) {
+    let rules = Arc::new(Ruleset::default());
+    let spec = stage::spec(flood, (maze, variant), &rules);
+    let mut recording = Recording::default();
+    let mut transcript = Transcript::default();
     let pair = side_by_side(
         || {
-            let game = (maze, setting);
-            black_box(stage::play(host, flood, game, &rules, &mut recorder));
+            black_box(stage::play(runtime, flood, &spec, &mut recording));
         },
-        || native::play(black_box(maze), &rules, setting, &mut trace),
+        || native::play(black_box(maze), &rules.game, variant, &mut transcript),
     );
-    assert_eq!(recorder.trace, trace, "both have played the same match");
+    assert_eq!(
+        recording.transcript, transcript,
+        "both have played the same match"
+    );
     let (wasm, native) = (pair.first, pair.second);
-    let steps = trace.steps().len();
+    let steps = transcript.actions().count();
     let sandbox = wasm.saturating_sub(native).as_nanos() / steps as u128;
     ratio_row(
-        &format!("flood in wasm / native, setting {name}"),
+        &format!("flood in wasm / native, {name}"),
         2.0,
         pair.ratio,
         &format!("{wasm:.1?} / {native:.1?}, {steps} steps, {sandbox} ns a step more"),
@@ -134,20 +135,31 @@ fn whole_process() {
     time_row(name, Duration::from_millis(60), time);
 }
 
-/// What it costs that robots run in confined processes.
+/// What it costs that robots run in sandboxed processes, and what a second thread is worth.
 fn isolation() {
-    for threads in [1, 2] {
-        let mazes = "gen:tree:16:1..=200";
-        let count = u32::try_from(threads).expect("one or two");
-        let [inside, workers] = [Trust::Trusted, Trust::Stranger]
-            .map(|trust| Stage::new(&["flood", "flood"], mazes, count, trust));
-        let pair = side_by_side(|| workers.play(threads), || inside.play(threads));
-        let (there, here) = (pair.first, pair.second);
+    let mazes = "gen:tree:16:1..=400";
+    let stage = |place, jobs| Stage::new(&[("flood", 0)], mazes, jobs, place);
+    let [inside, workers] = [Place::Here, Place::Workers].map(|place| stage(place, 2));
+    let pair = side_by_side(|| workers.play(1), || inside.play(1));
+    let (there, here) = (pair.first, pair.second);
+    ratio_row(
+        "400 matches in workers / here, 1 thread",
+        1.1,
+        pair.ratio,
+        &format!("{there:.1?} / {here:.1?}"),
+    );
+    for (name, stage) in [("in process", &inside), ("in workers", &workers)] {
+        let pair = side_by_side(|| stage.play(2), || stage.play(1));
         ratio_row(
-            &format!("400 matches in workers / here, {threads} threads"),
-            1.1,
+            &format!("400 matches on two threads / one, {name}"),
+            1.0 / 1.9,
             pair.ratio,
-            &format!("{there:.1?} / {here:.1?}"),
+            &format!(
+                "{:.1?} / {:.1?}, {:.2} times as fast",
+                pair.first,
+                pair.second,
+                1.0 / pair.ratio
+            ),
         );
     }
     let folder = tempfile::tempdir().expect("a folder for temporary files");
@@ -166,28 +178,23 @@ fn isolation() {
     );
 }
 
-/// Plays very many matches on one host. Says nothing where the system does not
-/// tell how much memory a process has.
+/// Plays very many matches on one runtime. Prints nothing where the system does not say how much
+/// memory a process has.
 fn memory() {
-    let host = stage::host(1);
-    let flood = stage::robot(&host, "flood");
-    let rules = Ruleset::default();
+    let runtime = stage::runtime();
+    let flood = stage::robot(&runtime, "flood");
+    let rules = Arc::new(Ruleset::default());
     let (_, maze) = stage::match_mazes().swap_remove(0);
-    let mut recorder = Recorder::default();
+    let spec = stage::spec(&flood, (&maze, 0), &rules);
+    let mut recording = Recording::default();
     let mut many = |matches: u32| {
         for _ in 0..matches {
-            black_box(stage::play(
-                &host,
-                &flood,
-                (&maze, 0),
-                &rules,
-                &mut recorder,
-            ));
+            black_box(stage::play(&runtime, &flood, &spec, &mut recording));
         }
         resident_kib()
     };
     let (Some(before), Some(after)) = (many(MATCHES / 100), many(MATCHES)) else {
-        println!("memory: not measured, the system does not tell");
+        println!("memory: not measured, the system does not say");
         return;
     };
     let growth = after.saturating_sub(before);

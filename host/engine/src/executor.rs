@@ -332,13 +332,13 @@ impl Executor for Sandboxed {
 /// Whose code a robot is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trust {
-    /// It may run in this process: a bundled robot, or one of the user's own.
+    /// It may run in this process: a bundled robot.
     Trusted,
     /// It may be anything, and runs in sandboxed workers.
     Untrusted,
 }
 
-/// Where untrusted robots run.
+/// Where robots run that are not trusted.
 #[derive(Clone, Debug)]
 pub enum Isolation {
     /// In this process, like all others.
@@ -347,8 +347,13 @@ pub enum Isolation {
     Workers(WorkerOptions),
 }
 
-/// Runs trusted robots in this process and untrusted ones in workers; starts either when the
-/// first robot needs it.
+/// Runs untrusted robots in workers, and trusted ones too unless one match is played at a time;
+/// starts either executor when the first robot needs it.
+///
+/// Threads that run robots in one process share its address space. A robot that grows its memory
+/// changes page protections twice in each match, for which the kernel takes a lock on the whole
+/// address space and interrupts the other cores: two threads are then hardly faster than one.
+/// Processes do not have this problem.
 pub struct LocalExecutor {
     rules: Arc<Ruleset>,
     limits: Limits,
@@ -429,15 +434,15 @@ impl LocalExecutor {
     }
 
     fn for_trust(&self, trust: Trust) -> Result<&dyn Executor, InfrastructureError> {
-        match (trust, &self.isolation) {
-            (Trust::Untrusted, Isolation::Workers(workers)) => {
+        match &self.isolation {
+            Isolation::Workers(workers) if trust == Trust::Untrusted || self.matches > 1 => {
                 let executor = get_or_try_init(&self.sandboxed, || {
                     let (rules, cache) = (Arc::clone(&self.rules), self.cache.clone());
                     Sandboxed::new(rules, self.limits, workers.clone(), cache)
                 })?;
                 Ok(executor)
             }
-            (Trust::Trusted, _) | (_, Isolation::None) => {
+            Isolation::Workers(_) | Isolation::None => {
                 let executor = get_or_try_init(&self.in_process, || {
                     InProcess::new(self.limits, self.matches, self.cache.clone())
                 })?;

@@ -29,6 +29,16 @@ pub enum Exit {
     Interrupted = 130,
 }
 
+impl Exit {
+    /// What clap's own exit code means: 0 after help was printed, else 2.
+    pub const fn from_clap(code: i32) -> Self {
+        match code {
+            0 => Self::Success,
+            _ => Self::Usage,
+        }
+    }
+}
+
 /// The table as `--help` prints it.
 pub const EXIT_CODES_HELP: &str = "\
 Exit codes:

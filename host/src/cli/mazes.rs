@@ -3,12 +3,14 @@
 //! An argument is resolved to [`Source`]s without reading any of them. Then each source is
 //! read, parsed and, unless the user says `--lenient`, checked against the contest rules.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::hash_map::Entry;
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use wasmouse_core::Digest;
 use wasmouse_core::maze::format::{self, Format, ParseError, Parsed, TEXT_BYTES_MAX};
 use wasmouse_core::maze::generate::{GenSpec, GeneratedMaze};
 use wasmouse_core::maze::{BundledMaze, Maze, bundled, violations};
@@ -117,6 +119,48 @@ pub fn load(
         );
     }
     Ok(mazes)
+}
+
+/// The mazes without those that are given twice: their matches would be the same matches.
+pub fn distinct(mazes: Vec<MazeSource>) -> Vec<MazeSource> {
+    let mut seen = Seen::default();
+    let is_new = |maze: &MazeSource| {
+        let twin = seen.twin(maze);
+        if let Some(twin) = &twin {
+            let (name, twin) = (for_terminal(&maze.name()), for_terminal(twin));
+            message!("warning: skipped `{name}`, which is the same maze as `{twin}`");
+        }
+        twin.is_none()
+    };
+    let mut mazes = mazes;
+    mazes.retain(is_new);
+    mazes
+}
+
+/// The mazes of a contest by now.
+#[derive(Default)]
+struct Seen {
+    loaded: HashMap<Digest, String>,
+    generated: HashSet<GeneratedMaze>,
+}
+
+impl Seen {
+    /// The name under which the same maze was given before.
+    fn twin(&mut self, maze: &MazeSource) -> Option<String> {
+        match maze {
+            MazeSource::Loaded { name, maze } => match self.loaded.entry(maze.digest()) {
+                Entry::Occupied(twin) => Some(twin.get().clone()),
+                Entry::Vacant(place) => {
+                    place.insert(name.clone());
+                    None
+                }
+            },
+            MazeSource::Generated(maze) => {
+                let is_new = self.generated.insert(*maze);
+                (!is_new).then(|| maze.to_string())
+            }
+        }
+    }
 }
 
 /// A maze with the name that results call it.
@@ -437,8 +481,9 @@ mod tests {
         assert_eq!(names(&[spec(&folder, "")]), ["a", "b", "c"]);
         let both = [spec(&folder, "a.txt"), spec(&folder, "deeper/d.txt")];
         assert_eq!(names(&both), ["a", "d"]);
-        let same = [spec(&folder, "a.txt"), spec(&folder, "a.txt")];
-        assert_eq!(names(&same), ["a", "a"]);
+        let mazes = load(&both, Legality::Contest, BadFiles::Fail).expect("two mazes");
+        let names: Vec<String> = distinct(mazes).iter().map(MazeSource::name).collect();
+        assert_eq!(names, ["a"], "both files have the same maze");
     }
 
     #[test]

@@ -71,7 +71,10 @@ enum Command {
 
 /// Runs the command line of this process and returns its exit code.
 pub fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return print_clap_error(&error),
+    };
     // A worker is ended by its supervisor, and must not start threads of its own.
     if !matches!(cli.command, Command::Worker(_)) {
         interrupt::handle();
@@ -96,6 +99,21 @@ pub fn main() -> ExitCode {
             failure.exit().into()
         }
     }
+}
+
+/// Prints an invalid command line, or the help, as clap does, but with the word for hints that
+/// all other messages have.
+fn print_clap_error(error: &clap::Error) -> ExitCode {
+    let text = error.render();
+    if error.use_stderr() {
+        let text = text.ansi().to_string();
+        let plain = text.replace("tip:", "hint:");
+        message!("{}", plain.trim_end());
+    } else {
+        // A closed pipe is no failure, and there is no other way to report one.
+        let _ = error.print();
+    }
+    Exit::from_clap(error.exit_code()).into()
 }
 
 #[cfg(test)]

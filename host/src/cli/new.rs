@@ -97,7 +97,7 @@ fn check_name(name: &str) -> Result<(), Failure> {
     .hint("for example: wasmouse new my-robot"))
 }
 
-/// Words that cargo refuses as names, names of crates that the project links,
+/// Words that cargo rejects as names, names of crates that the project links,
 /// and names that Windows keeps for devices.
 fn is_reserved(name: &str) -> bool {
     const KEYWORDS: &str = "abstract as async await become box break const continue crate do dyn \

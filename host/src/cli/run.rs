@@ -57,6 +57,7 @@ const LISTED_MAX: u64 = 40;
 #[command(after_long_help = format!(
     "{}\n\n{}\n\n{EXAMPLES}", robots::SPECIFICATION_HELP, mazes::SPECIFICATION_HELP
 ))]
+#[command(group = clap::ArgGroup::new("files").multiple(true))]
 pub struct Args {
     /// Robots and mazes, in any order
     #[arg(value_name = "ROBOT|MAZE")]
@@ -88,13 +89,13 @@ pub struct Args {
     #[arg(long)]
     json: bool,
     /// Write the results to FILE: JSON, or one match per line if it ends in .jsonl
-    #[arg(long, short, value_name = "FILE")]
+    #[arg(long, short, value_name = "FILE", group = "files")]
     output: Option<PathBuf>,
     /// Write a web page with the standings and pictures to FILE
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", group = "files")]
     html: Option<PathBuf>,
     /// Overwrite FILE if it exists
-    #[arg(long)]
+    #[arg(long, requires = "files")]
     force: bool,
     /// Print the table of matches even if it is long
     #[arg(long, conflicts_with = "json")]
@@ -131,8 +132,9 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     } else {
         BadFiles::Skip
     };
+    let legality = Legality::from_flag(args.lenient);
     let plan = Plan {
-        mazes: mazes::load(&mazes, Legality::from_flag(args.lenient), bad_files)?,
+        mazes: mazes::distinct(mazes::load(&mazes, legality, bad_files)?),
         entrants: robots::load(&robots, &executor)?,
         seeds: args.seeds()?,
         rules: executor.rules().clone(),

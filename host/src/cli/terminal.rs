@@ -20,7 +20,7 @@ pub fn table_layout(ascii: bool) -> Layout {
     }
 }
 
-/// Pictures for standard output: in colour on a terminal that has not been told
+/// Pictures for standard output: in colour on a terminal unless the environment says
 /// otherwise (`NO_COLOR`, `TERM=dumb`).
 pub fn picture_style(ascii: bool) -> TextStyle {
     TextStyle {

@@ -53,7 +53,7 @@ enum Plan {
     GiveUp,
 }
 
-/// Chooses the way with the fewest surprises: the compiler that is there, then
+/// Chooses the least surprising option: the compiler that is installed, then
 /// rustup, then a packaged compiler.
 fn plan(probe: &Probe, rustup_was_asked: bool) -> Plan {
     match probe {

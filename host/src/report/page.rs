@@ -2,7 +2,7 @@
 //!
 //! No scripts, and nothing is loaded from elsewhere; readable in light and dark, and without
 //! colours. Untrusted text is escaped for HTML by maud, and
-//! [`for_terminal`](super::escape::for_terminal) makes invisible characters visible.
+//! [`for_terminal`] makes invisible characters visible.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use wasmouse_core::game::Score;
@@ -15,6 +15,9 @@ use crate::contest::{BestMatch, ContestInfo, Names, Results, Summary};
 
 /// Matches that a page lists, at most; browsers are slow to lay out longer tables.
 pub const LISTED_MAX: usize = 1000;
+
+/// Matches that the host could not play that a page lists, at most.
+const FAILURES_MAX: usize = 20;
 
 /// The best match of a robot, with its picture.
 #[derive(Clone, Debug)]
@@ -151,12 +154,13 @@ impl<'a> Page<'a> {
                     " matches were not played."
                 } }
             }
-            @for failure in &self.summary.failures {
-                @let names = self.names();
+            @let names = self.names();
+            @for failure in self.summary.failures.iter().take(FAILURES_MAX) {
                 p { "Internal error: " strong { (for_terminal(names.robot(&failure.key))) } " in "
                     (for_terminal(names.maze_name(&failure.key))) ", seed " (failure.key.seed) ": "
                     (for_terminal(&failure.reason)) }
             }
+            (more(self.summary.failures.len(), FAILURES_MAX))
         }
     }
 
@@ -242,11 +246,19 @@ impl<'a> Page<'a> {
                     tr { td.name { (for_terminal(name)) } td.name { code { (digest) } } }
                 } }
             } }
+            (more(self.summary.mazes.len(), LISTED_MAX))
         }
     }
 
     fn names(&self) -> Names<'a> {
         Names::new(&self.contest.robots, &self.summary.mazes)
+    }
+}
+
+/// What stands below a list of `count` things of which `max` are shown.
+fn more(count: usize, max: usize) -> Markup {
+    html! {
+        @if count > max { p { "And " (count - max) " more; they are in the JSON of the results." } }
     }
 }
 
@@ -353,5 +365,10 @@ mod tests {
         results.matches.push(results.matches[0].clone());
         let html = Page::of(&results, &[]).to_html();
         assert!(html.contains(&format!("The 1001 {sentence}")) && html.len() < 20_000);
+        let failure = results.summary.failures[0].clone();
+        results.summary.failures = vec![failure; FAILURES_MAX + 3];
+        results.summary.mazes = vec![results.summary.mazes[0].clone(); LISTED_MAX + 2];
+        let html = Page::of(&results, &[]).to_html();
+        assert!(html.contains("<p>And 3 more;") && html.contains("<p>And 2 more;"));
     }
 }

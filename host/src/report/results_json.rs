@@ -145,8 +145,8 @@ struct AnyContest {
     wasmouse: Option<String>,
 }
 
-/// Reads a results document. White space and the order of fields do not matter; unknown and
-/// missing fields are errors.
+/// Reads a results document. White space and the order of fields do not matter. Unknown and
+/// missing fields are errors, except that a missing field that may be null is null.
 ///
 /// # Errors
 ///

@@ -73,7 +73,7 @@ pub struct FileReport {
 pub enum Status {
     /// Every byte is as it would be written now.
     Verified,
-    /// Every value is as it would be written now, but the text is formatted in another way.
+    /// Every value is as it would be written now, but the formatting differs.
     Reformatted {
         /// The first line that differs, counted from 1.
         line: usize,

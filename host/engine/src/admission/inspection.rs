@@ -1,4 +1,4 @@
-//! [`Inspection`]: everything that can be told about a file without playing.
+//! [`Inspection`]: everything that is known of a file without running it.
 
 use serde::{Deserialize, Serialize};
 use wit_component::{DecodedWasm, WitPrinter};
@@ -25,7 +25,7 @@ pub struct Inspection {
     pub wit: Option<String>,
     /// What it needs at the start; `None` unless it is admitted.
     pub requirements: Option<ResourceRequirements>,
-    /// Why it would be refused; `None` when it would be admitted.
+    /// Why it is rejected; `None` when it is admitted.
     pub rejection: Option<Rejection>,
 }
 
@@ -43,7 +43,7 @@ pub struct ResourceRequirements {
 }
 
 impl Inspection {
-    /// What can be told of any bytes.
+    /// What is known of any bytes.
     pub fn new(bytes: &[u8]) -> Self {
         Self {
             bytes: u64::try_from(bytes.len()).unwrap_or(u64::MAX),

@@ -137,11 +137,11 @@ mod tests {
     #[test]
     fn long_lists_of_names_end() {
         let names: Vec<String> = (1..=20).map(|number| format!("e{number}")).collect();
-        let text = Rejection::NoController(names).to_string();
+        let message = Rejection::NoController(names).to_string();
         assert!(
-            text.ends_with("it exports `e1`, `e2`, `e3`, `e4`, `e5`, `e6`, `e7`, `e8`, 12 more")
+            message.ends_with("it exports `e1`, `e2`, `e3`, `e4`, `e5`, `e6`, `e7`, `e8`, 12 more")
         );
-        let text = Rejection::NoController(Vec::new()).to_string();
-        assert!(text.ends_with("it exports nothing"), "{text}");
+        let message = Rejection::NoController(Vec::new()).to_string();
+        assert!(message.ends_with("it exports nothing"), "{message}");
     }
 }

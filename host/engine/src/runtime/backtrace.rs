@@ -8,13 +8,13 @@
 use serde::{Deserialize, Serialize};
 use wasmtime::{FrameInfo, FrameSymbol, WasmBacktrace};
 
-/// Frames that are told, from the innermost.
+/// Frames that are kept, most recent call first.
 pub(crate) const FRAMES_MAX: usize = 40;
 
-/// Characters of a name or place that are told.
+/// Characters of a name or place that are kept.
 const TEXT_CHARS_MAX: usize = 160;
 
-/// Characters of a mangled name that are looked at: more than are told, because the
+/// Characters of a mangled name that are looked at: more than are kept, because the
 /// mangled name is longer, and no name can be made out from a part of it.
 const MANGLED_CHARS_MAX: usize = 2000;
 
@@ -46,7 +46,7 @@ pub struct Frame {
     pub source: Option<String>,
 }
 
-/// The frames of an error of a call, the innermost first; none when the engine gathers
+/// The frames of an error of a call, most recent call first; none when the engine gathers
 /// none.
 pub(crate) fn frames(error: &wasmtime::Error) -> Vec<Frame> {
     let Some(backtrace) = error.downcast_ref::<WasmBacktrace>() else {
@@ -58,7 +58,7 @@ pub(crate) fn frames(error: &wasmtime::Error) -> Vec<Frame> {
 
 impl Frame {
     /// The frames of one call of compiled code: debug information knows the functions
-    /// that the compiler inlined into it, the innermost first.
+    /// that the compiler inlined into it, most recent call first.
     fn of_call(info: &FrameInfo) -> Vec<Self> {
         let symbols = info.symbols();
         if symbols.is_empty() {
@@ -84,7 +84,7 @@ impl Frame {
         }
     }
 
-    /// The frames that say something about the robot, the innermost first: without those
+    /// The frames that say something about the robot, most recent call first: without those
     /// of the Rust runtime, which reports a panic. All of them when nothing else is left.
     pub fn of_robot(frames: &[Self]) -> Vec<&Self> {
         let mut of_robot = Vec::new();
@@ -145,7 +145,7 @@ fn source(symbol: &FrameSymbol) -> Option<String> {
     Some(place)
 }
 
-/// The last characters of a path, which tell more than the first; with room for a line and
+/// The last characters of a path, which say more than the first; with room for a line and
 /// a column.
 fn cut_front(path: &str) -> &str {
     let wanted = TEXT_CHARS_MAX - ":4294967295:4294967295".len();

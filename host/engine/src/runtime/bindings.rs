@@ -14,7 +14,7 @@ wasmtime::component::bindgen!({
 
 pub use self::wasmouse::robot::{journal, types};
 
-/// What a robot is told before its first step.
+/// What a robot learns before its first step.
 pub(crate) fn briefing(spec: &MatchSpec) -> types::Briefing {
     let (maze, rules) = (&spec.maze, &spec.rules.game);
     let goal = maze.goal();

@@ -1,4 +1,4 @@
-//! [`CompiledCode`]: compiled code in a file, on its way between a compile worker, the cache
+//! [`CompiledCode`]: compiled code in a file, between a compile worker, the cache
 //! and the workers that run it.
 //!
 //! The process in between never loads it, and never holds more than a piece of it: the

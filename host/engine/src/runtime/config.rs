@@ -160,7 +160,7 @@ fn pool(limits: &Limits, matches: u32) -> PoolingAllocationConfig {
 }
 
 /// Has a slot's pages wiped and kept after a match instead of given back, where the
-/// system can tell which of them were written (Linux 6.7 and later): the next match
+/// system knows which of them were written (Linux 6.7 and later): the next match
 /// then takes no page faults, which are half the time of a short one. Elsewhere
 /// wasmtime would wipe all of them, written or not, which is slower than giving
 /// them back. What a robot finds in its memory is the same either way.

@@ -43,7 +43,7 @@ pub struct Args {
     /// Write to a file instead of standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Replace the file if it is there already
+    /// Overwrite the file if it exists
     #[arg(long, requires = "output")]
     force: bool,
 }

@@ -22,7 +22,7 @@ Kinds:
   braid      straights and diagonal staircases, few dead ends: like mazes that
              people draw for contests
   stretches  stretches of one to five edges with one opening each, as in
-             Minnett's program: short ways to the goal
+             Minnett's program: short paths to the goal
 
 Every maze is a legal contest maze, and the same kind, size and seed give the
 same maze everywhere. A specification gen:KIND[,loops=PERCENT]:SIZE:SEED says
@@ -161,7 +161,7 @@ fn text(maze: &Maze, format: Format) -> String {
     format::print(maze, format).expect("every format holds a contest maze")
 }
 
-/// Writes all mazes into a folder, or none when a file is in the way. Ctrl-C ends it
+/// Writes all mazes into a folder, or none when a file already exists. Ctrl-C ends it
 /// between two files.
 fn save_all(
     spec: &GenSpec,
@@ -181,7 +181,7 @@ fn save_all(
         && let Some(file) = files.find(|file| file.exists())
     {
         let message = format!(
-            "failed to write `{}`: the file is there already",
+            "failed to write `{}`: the file already exists",
             file.display()
         );
         return Err(Failure::input(message).hint("replace it with --force"));
@@ -311,7 +311,7 @@ mod tests {
 
         fs::write(&file, "mine").expect("a file");
         fs::remove_file(target.join("tree-loops12-12-1.num")).expect("the first file");
-        let failure = run(args(&line)).expect_err("a file is in the way");
+        let failure = run(args(&line)).expect_err("a file already exists");
         assert!(failure.to_string().contains("--force"), "{failure}");
         assert_eq!(
             fs::read_dir(&target).expect("a folder").count(),
@@ -331,7 +331,7 @@ mod tests {
         run(args(&line)).expect("a new file");
         let text = fs::read_to_string(&file).expect("a file");
         assert!(text.starts_with("12\n"), "{text}");
-        run(args(&line)).expect_err("the file is there already");
+        run(args(&line)).expect_err("the file already exists");
         let failure = run(args("braid --count 2")).expect_err("two mazes");
         assert!(failure.to_string().contains("--output"), "{failure}");
     }

@@ -44,7 +44,7 @@ pub struct Args {
     /// Write an SVG drawing to a file, or to standard output with -
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// Replace the SVG file if it is there already
+    /// Overwrite the SVG file if it exists
     #[arg(long, requires = "svg")]
     force: bool,
     /// Colour heat and path; auto means in a terminal, unless NO_COLOR is set
@@ -155,7 +155,10 @@ fn picture(named: &NamedMaze, args: &Args) -> Picture {
     if let Some(path) = path {
         picture.set_path(&path);
     } else if !matches!(args.path, PathChoice::None) {
-        message!("warning: maze `{}` has no way to the goal", named.name);
+        message!(
+            "warning: the goal of maze `{}` cannot be reached",
+            named.name
+        );
     }
     if let Some(metric) = args.numbers {
         picture.set_numbers(&distances_to_goal(maze, metric.into()));

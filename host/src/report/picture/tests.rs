@@ -225,7 +225,7 @@ o---o---o---o---o
 }
 
 #[test]
-fn labels_and_paint_come_from_strangers() {
+fn labels_and_titles_are_untrusted() {
     let mut picture = partial();
     let texts = [
         "<b>&\"",
@@ -301,7 +301,7 @@ fn what_lies_outside_is_ignored() {
 }
 
 #[test]
-fn svg_has_words_for_those_who_cannot_see_it() {
+fn svg_has_a_title_and_a_description() {
     let (maze, mut picture) = small();
     picture.set_title("small");
     picture.set_path(&shortest_path(&maze, Metric::STEPS).expect("solvable"));

@@ -80,7 +80,7 @@ struct Content {
     ansi: Option<u8>,
 }
 
-/// A picture on its way to text.
+/// A picture while it is turned into text.
 struct Canvas<'a> {
     picture: &'a Picture,
     style: TextStyle,

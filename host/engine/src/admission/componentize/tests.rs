@@ -155,7 +155,7 @@ fn many_exports_are_cut_and_escaped() {
 }
 
 proptest! {
-    /// Damaged modules are refused or wrapped; the host never panics on one.
+    /// Damaged modules are rejected or wrapped; the host never panics on one.
     #[test]
     fn damage_never_panics(
         has_types in any::<bool>(),

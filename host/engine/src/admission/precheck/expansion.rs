@@ -8,7 +8,7 @@
 //! This works because it is always known which component or module is instantiated:
 //! one that is written in the file, in the component itself or in one around it. A
 //! component that instantiates what it is handed, or what it takes out of an
-//! instance, is refused; no toolchain makes such robots.
+//! instance, is rejected; no toolchain makes such robots.
 
 use wasmparser::{
     ComponentAlias, ComponentExternalKind, ComponentInstance, ComponentOuterAliasKind,

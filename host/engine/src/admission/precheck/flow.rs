@@ -1,7 +1,7 @@
 //! [`Flow`]: how many values control flow brings together in a function.
 //!
 //! A compiler to machine code keeps one value per local and path. Where paths meet,
-//! every local that has been written on the way and is read afterwards becomes a
+//! every local that has been written along the path and is read afterwards becomes a
 //! parameter of the block (*joined*), and every edge into that block carries one
 //! argument for each (*carried*). The time and memory that Cranelift takes grow with
 //! their number, and with its square, much more than with the size of the code:
@@ -10,13 +10,13 @@
 //! They are counted as Cranelift makes them: the constructs and what is written in
 //! them are recorded forwards ([`Flow::open`] and the like), then [`Flow::count`]
 //! goes backwards and keeps which locals are still read. What is still read where a
-//! loop begins is only known after a round through it, so the way back is repeated
+//! loop begins is only known after a round through it, so the backward pass is repeated
 //! until nothing changes, which for code without `goto` is soon. One value more is
 //! carried on every edge: the fuel.
 
 use std::ops::Range;
 
-/// After so many ways back without an end, every local counts as read in every loop:
+/// After this many backward passes without an end, every local counts as read in every loop:
 /// rather too much than too long.
 const ROUNDS_MAX: u32 = 12;
 
@@ -32,7 +32,7 @@ enum Event {
     Jump(u32),
     /// A branch that may be taken.
     Fork(u32),
-    /// The end of a way: a return, a trap, or a `br_table`, whose targets follow
+    /// The end of a path: a return, a trap, or a `br_table`, whose targets follow
     /// as forks.
     Leave,
 }
@@ -113,7 +113,7 @@ impl Flow {
         self.events.push(Event::Open);
     }
 
-    /// The second way of the innermost `if`.
+    /// The second branch of the innermost `if`.
     pub(super) fn otherwise(&mut self) {
         self.events.push(Event::Else);
     }
@@ -132,7 +132,7 @@ impl Flow {
 
     /// A local is read.
     pub(super) fn read(&mut self, local: u32) {
-        // An index out of range is refused by validation, not here.
+        // An index out of range is rejected by validation, not here.
         if local < self.locals {
             self.events.push(Event::Read(local));
         }
@@ -168,7 +168,7 @@ impl Flow {
     }
 
     /// The code after this is reached by branches only. The targets of a `br_table`
-    /// are told as forks after it.
+    /// are reported as forks after it.
     pub(super) fn leave(&mut self) {
         self.events.push(Event::Leave);
     }
@@ -218,7 +218,7 @@ fn index(number: u32) -> usize {
     usize::try_from(number).expect("usize has at least 32 bits")
 }
 
-/// The way back through the events of a function.
+/// The backward pass through the events of a function.
 struct Backwards<'a> {
     flow: &'a Flow,
     heads: &'a mut [u64],
@@ -235,7 +235,7 @@ struct Backwards<'a> {
 struct Label {
     frame: u32,
     live: Vec<u64>,
-    /// What is live where the second way of an `if` begins.
+    /// What is live where the second branch of an `if` begins.
     otherwise: Option<Vec<u64>>,
 }
 
@@ -306,15 +306,15 @@ impl<'a> Backwards<'a> {
             .zip(&label.live)
             .map(|(written, live)| u64::from((written & live).count_ones()))
             .sum();
-        // A block that nothing branches to ends with one way into it.
-        let ways = match frame.construct {
+        // A block that nothing branches to ends with one path into it.
+        let paths = match frame.construct {
             Construct::Block => frame.branches,
             Construct::Loop | Construct::If => frame.branches + 1,
         };
         let fuel = 1;
-        let values = frame.values + if ways > 0 { locals + fuel } else { 0 };
+        let values = frame.values + if paths > 0 { locals + fuel } else { 0 };
         self.joins.joined += values;
-        self.joins.carried += values.saturating_mul(ways + 1);
+        self.joins.carried += values.saturating_mul(paths + 1);
         if frame.construct == Construct::If {
             match &label.otherwise {
                 Some(otherwise) => add(&mut self.live, otherwise),

@@ -1,7 +1,7 @@
 //! The check of a file before anything of it is compiled.
 //!
 //! [`precheck`] reads a component or core module once, validates it with exactly the
-//! proposals that the engine has, and measures on the way ([`Measure`]) what would
+//! proposals that the engine has, and measures meanwhile ([`Measure`]) what would
 //! make compiling or instantiating it take too long or too much memory. It compiles
 //! and runs nothing, knows no engine, and takes time proportional to the size of the
 //! file: whatever validation does more than once is limited before it begins.

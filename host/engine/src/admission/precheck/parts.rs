@@ -55,7 +55,7 @@ impl Parts {
         if let Some(&size) = self.known.get(&id) {
             return size;
         }
-        // Validation has refused types that are nested deeper than 100.
+        // Validation has rejected types that are nested deeper than 100.
         let size = self.of_defined(types, &types[id]);
         self.known.insert(id, size);
         size

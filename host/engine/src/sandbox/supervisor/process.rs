@@ -71,7 +71,7 @@ impl Executable {
     ///
     /// # Errors
     ///
-    /// When the operating system does not tell where it is.
+    /// When the operating system does not know where it is.
     pub fn current() -> io::Result<Self> {
         if cfg!(target_os = "linux") {
             Ok(Self("/proc/self/exe".into()))
