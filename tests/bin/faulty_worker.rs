@@ -1,38 +1,31 @@
-//! A worker that goes wrong on purpose: the real one, with something to do before
-//! matches of certain seeds.
+//! The real worker, except that it fails on purpose before matches with certain seeds.
 //!
-//! Workers get no environment and no arguments of their own, so the seed says what.
+//! Workers get no environment and no arguments of their own, so the seed says how.
 
 use std::io;
-use std::process::{ExitCode, abort};
+use std::process::abort;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use wasmouse::robot::worker;
+use wasmouse_engine::sandbox::child;
 
-/// Crashes whenever it plays this.
+/// Crashes every time.
 const CRASH: u64 = 901;
 /// Crashes, unless it is the first match of the worker.
 const CRASH_LATER: u64 = 902;
-/// Never answers.
+/// Never reports.
 const HANG: u64 = 903;
-/// Ends as if all was well.
+/// Exits with success.
 const LEAVE: u64 = 904;
 
-fn main() -> ExitCode {
+fn main() -> io::Result<()> {
     let role = std::env::args().nth(2).unwrap_or_default();
-    let served = match role.as_str() {
-        "play" => worker::play_main_with(&before_match),
-        "compile" => worker::compile_main(),
+    match role.as_str() {
+        "compile" => child::compile_main(),
+        "run" => child::run_main_with(&before_match),
+        "backtrace" => child::backtrace_main(),
         other => Err(io::Error::other(format!("no role `{other}`"))),
-    };
-    match served {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
     }
 }
 

@@ -6,10 +6,12 @@ use std::path::Path;
 
 use robot_champion::{Champion, PROVEN};
 use serde::Deserialize;
-use wasmouse::maze::format::{self, Format};
-use wasmouse::maze::generate::GenSpec;
-use wasmouse::maze::{Metric, distances_from};
+use wasmouse_core::maze::format::{self, Format};
+use wasmouse_core::maze::generate::GenSpec;
+use wasmouse_core::maze::{Metric, distances_from};
 use wasmouse_sdk::testing::{self, Note, PlayOptions};
+
+use crate::matches::generated_mazes;
 
 #[derive(Deserialize)]
 struct Training {
@@ -28,21 +30,18 @@ struct Set {
 
 impl Set {
     fn names(&self) -> HashSet<String> {
-        let specs = self.kinds.iter().map(|kind| {
-            let Self {
-                sizes,
-                first_seed,
-                last_seed,
-                ..
-            } = self;
-            format!("gen:{kind}:{sizes}:{first_seed}..={last_seed}")
+        let Self {
+            sizes,
+            first_seed,
+            last_seed,
+            ..
+        } = self;
+        let names = self.kinds.iter().flat_map(|kind| {
+            let spec = format!("gen:{kind}:{sizes}:{first_seed}..={last_seed}");
+            let spec: GenSpec = spec.parse().expect("a specification");
+            spec.expand().map(|it| it.to_string())
         });
-        specs
-            .flat_map(|spec| {
-                let spec: GenSpec = spec.parse().expect("a specification");
-                spec.expand().map(|(name, _)| name).collect::<Vec<_>>()
-            })
-            .collect()
+        names.collect()
     }
 }
 
@@ -72,16 +71,13 @@ fn no_test_maze_was_trained_on() {
     assert!(patterns.names().is_disjoint(&tuning.names()));
 }
 
-/// Wherever the journal claims a proof, the solver finds no shorter way; and the
+/// Wherever the journal claims a proof, the solver finds no shorter path; and the
 /// claim is made often enough to mean something.
 #[test]
 fn finishes_and_proves_what_it_claims() {
     let (mut proofs, mut matches) = (0, 0);
     for kind in ["division", "tree,loops=0", "tree,loops=60", "braid"] {
-        let spec: GenSpec = format!("gen:{kind}:12..=20:1..=6")
-            .parse()
-            .expect("a specification");
-        for (name, maze) in spec.expand() {
+        for (name, maze) in generated_mazes(&format!("gen:{kind}:12..=20:1..=6")) {
             let text = format::print(&maze, Format::Udacity).expect("a contest maze");
             let played = testing::play::<Champion>(&text, &PlayOptions::default());
             assert!(played.finished, "{name}: {}", played.summary());

@@ -1,5 +1,5 @@
 //! The same contest gives the same bytes: twice, on one thread or many, with
-//! robots compiled now or before.
+//! robots compiled now or taken from the cache.
 
 use std::path::{Path, PathBuf};
 
@@ -21,21 +21,6 @@ fn robots() -> Vec<String> {
     specifications.collect()
 }
 
-/// The official mazes; none where the shared material is absent.
-fn official_mazes() -> Vec<PathBuf> {
-    let Some(shared) = shared() else {
-        return Vec::new();
-    };
-    ["test_maze_01", "test_maze_02", "test_maze_03"]
-        .map(|name| {
-            shared
-                .join("mazes/udacity")
-                .join(name)
-                .with_extension("txt")
-        })
-        .to_vec()
-}
-
 fn run_json(mazes: &[PathBuf], options: &[&str], cache: Option<&Path>) -> String {
     let mut command = wasmouse();
     command.args(["run", "--json"]).args(robots()).args(options);
@@ -51,15 +36,24 @@ fn run_json(mazes: &[PathBuf], options: &[&str], cache: Option<&Path>) -> String
 
 #[test]
 fn a_contest_gives_the_same_bytes_however_it_is_run() {
-    let mut mazes: Vec<PathBuf> = maze::bundled()
-        .iter()
-        .map(|maze| maze.name.into())
-        .collect();
-    // The first one is bundled, and would be the same maze.
-    mazes.extend(official_mazes().into_iter().skip(1));
+    let mazes = maze::bundled().iter().map(|maze| maze.name.into());
+    check(&mazes.collect::<Vec<PathBuf>>());
+}
+
+#[test]
+#[cfg_attr(
+    not(shared_material),
+    ignore = "needs shared material: set WASMOUSE_SHARED"
+)]
+fn so_does_a_contest_in_official_mazes() {
+    let folder = shared().join("mazes/udacity");
+    check(&["test_maze_02.txt", "test_maze_03.txt"].map(|name| folder.join(name)));
+}
+
+fn check(mazes: &[PathBuf]) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let cache = folder.path().join("cache");
-    let expected = run_json(&mazes, &["--jobs", "1"], None);
+    let expected = run_json(mazes, &["--jobs", "1"], None);
     for (name, jobs, cache) in [
         ("a second time", "1", None),
         ("8 threads", "8", None),
@@ -67,7 +61,7 @@ fn a_contest_gives_the_same_bytes_however_it_is_run() {
         ("8 threads, warm cache", "8", Some(&cache)),
         ("1 thread, warm cache", "1", Some(&cache)),
     ] {
-        let found = run_json(&mazes, &["--jobs", jobs], cache);
+        let found = run_json(mazes, &["--jobs", jobs], cache);
         assert!(found == expected, "{name}: other bytes");
     }
     assert!(cache.read_dir().expect("a cache").count() >= bundled().len());
@@ -78,38 +72,3 @@ fn a_contest_gives_the_same_bytes_however_it_is_run() {
         assert!(record.fuel.steps > 0, "{record:?}");
     }
 }
-
-/// Each bundled robot gets a verdict in the official mazes, and flood finishes all
-/// three: with its first path, and with the best one.
-#[test]
-fn flood_finishes_the_official_mazes() {
-    let mazes = official_mazes();
-    if mazes.is_empty() {
-        return;
-    }
-    let json = run_json(&mazes, &[], None);
-    let results: Results = serde_json::from_str(&json).expect("a results document");
-    let names = results.names();
-    for record in &results.matches {
-        assert_eq!(record.verdict.fault(), None, "{record:?}");
-    }
-    for (robot, scores) in FLOOD_SCORES {
-        let own = results.matches.iter();
-        let own = own.filter(|record| names.robot(&record.key) == robot);
-        let found: Vec<String> = own
-            .map(|record| {
-                record
-                    .verdict
-                    .score()
-                    .expect("a finished match")
-                    .to_string()
-            })
-            .collect();
-        assert_eq!(found, scores, "{robot}");
-    }
-}
-
-const FLOOD_SCORES: [(&str, [&str; 3]); 2] = [
-    ("flood:reset", ["22.033", "30.267", "46.067"]),
-    ("flood:certain", ["21.867", "28.433", "34.367"]),
-];

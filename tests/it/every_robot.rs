@@ -1,23 +1,24 @@
-//! What holds for every bundled robot in every variant: natively it plays the match
-//! that its component plays, its map never contradicts the maze, and it finishes legal
-//! mazes unless it is known not to.
+//! What holds for every bundled robot in every variant: natively it plays the match that its
+//! component plays, its map never contradicts the maze, and it finishes legal mazes unless it is
+//! known not to.
 
 use std::collections::BTreeMap;
-use std::ops::RangeInclusive;
+use std::ops::{ControlFlow, RangeInclusive};
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::thread;
 
-use wasmouse::contest::{Contest, ContestMaze, Entrant, STUDY_SEEDS, study_families};
-use wasmouse::maze::format::{self, Format};
-use wasmouse::maze::{self, Maze};
-use wasmouse::robot::bundled::{BundledRobot, bundled};
-use wasmouse::robot::{
-    Digest, Game, Host, Isolation, Outcome, Player, Recorder, Referee, Trust, Verdict,
-};
-use wasmouse::sim::{Ruleset, Simulation, Trace};
+use wasmouse_core::game::{SandboxLimits, Simulation};
+use wasmouse_core::maze::Maze;
+use wasmouse_core::maze::format::{self, Format};
+use wasmouse_core::maze::generate::{GENERATED_DIMENSIONS, GenSpec, Kind};
+use wasmouse_core::record::{MatchSpec, trace};
+use wasmouse_engine::bundled::{BundledRobot, bundled};
+use wasmouse_engine::{Executor, InProcess, Limits};
 use wasmouse_sdk::testing::{self, PlayOptions, Played};
 
+use crate::matches::{bundled_mazes, generated_mazes, rules, spec, variants};
 use crate::sdk_arena;
+use crate::shared::shared_text;
 
 /// Plays a robot natively.
 type Native = fn(&str, &PlayOptions) -> Played;
@@ -42,12 +43,8 @@ const NATIVE: &[(&str, Native)] = &[
     ),
 ];
 
-/// Who need not finish: robot, and the variant if it is only one of them.
-const MAY_FAIL: &[(&str, Option<&str>)] = &[
-    ("dfs", Some("pure")),
-    ("random", None),
-    ("wall-follower", None),
-];
+/// Who need not finish: the robot, or one of its variants.
+const MAY_FAIL: &[&str] = &["dfs:pure", "random", "wall-follower"];
 
 /// Who has no map to show, or shows none.
 const WITHOUT_MAP: &[&str] = &["random", "wall-follower"];
@@ -56,7 +53,7 @@ const WITHOUT_MAP: &[&str] = &["random", "wall-follower"];
 const KNOWN_WALLS_MIN: u32 = 40;
 
 /// Fuel of a match beyond which a robot counts as slow: unoptimised, as in these
-/// tests, it plays natively for many seconds, and a sample of mazes has to do.
+/// tests, it plays natively for many seconds, and plays only a sample of the mazes.
 const SLOW_FUEL: u64 = 200_000_000;
 
 #[test]
@@ -72,32 +69,72 @@ fn every_bundled_robot_is_in_the_table() {
 /// In the bundled mazes and in a generated one of each family and size.
 #[test]
 fn natively_robots_play_the_match_of_their_component() {
-    let (mazes, rules) = (mazes(), Ruleset::default());
-    let host = Host::new(rules.limits, 1, None).expect("address space for one match");
+    let (mazes, rules) = (mazes(), rules(SandboxLimits::default()));
+    let executor = executor();
     for (robot, (_, native)) in bundled().iter().zip(NATIVE) {
-        let component = host.admit(robot.component).expect("an admitted robot");
+        let admitted = executor.admit(robot.component).expect("the host works");
+        let admitted = admitted.expect("a bundled robot");
         for (variant, name) in variants(robot) {
             for (maze_name, text, maze) in &mazes {
-                let game = Game {
-                    maze,
-                    rules: &rules,
-                    seed: 1,
-                    setting: variant,
-                };
-                let mut recorder = Recorder::default();
-                let outcome = host.play(&component, &game, &mut recorder);
-                let outcome = outcome.expect("the host does not fail");
+                let place = format!("{}:{name} in {maze_name}", robot.name);
+                let spec = spec(&rules, admitted.digest(), maze, (variant, 1));
+                let there = executor.execute_with_details(&admitted, &spec);
+                let there = there.expect("the host works");
+                let transcript = &there.recording.transcript;
+                let (_, trace) = trace(maze, &rules.game, transcript).expect("a replay");
+
+                // The simulation, fed with the native actions, agrees with every native reading
+                // and gives the same trace.
                 let options = PlayOptions {
                     variant,
-                    ..sdk_arena::options(&rules, game.seed)
+                    ..sdk_arena::options(&rules.game, 1)
                 };
-                let played = native(text, &options);
-                let place = format!("{}:{name} in {maze_name}", robot.name);
-                check_same(maze, &played, &outcome, &recorder.trace, &place);
-                if outcome.fuel.steps > SLOW_FUEL {
+                let here = native(text, &options);
+                let simulation = Simulation::new(maze, &rules.game);
+                let native = sdk_arena::trace_of(simulation, &here, &place);
+                let mut steps = native.steps().iter().zip(trace.steps());
+                let differs = steps.position(|(native, component)| native != component);
+                assert_eq!(differs, None, "{place}: the first step that differs");
+                assert_eq!(native.steps().len(), trace.steps().len(), "{place}");
+                let finished = there.record.verdict.score().is_some();
+                assert_eq!(here.finished, finished, "{place}");
+                if there.record.fuel.steps > SLOW_FUEL {
                     println!("skipped: {place} is slow; the mazes after it are left out");
                     break;
                 }
+            }
+        }
+    }
+}
+
+/// No robot fails in the official mazes, and flood finishes all three: with its first path, and
+/// with the best one.
+#[test]
+#[cfg_attr(
+    not(shared_material),
+    ignore = "needs shared material: set WASMOUSE_SHARED"
+)]
+fn flood_finishes_the_official_mazes() {
+    let mazes = ["test_maze_01", "test_maze_02", "test_maze_03"].map(|name| {
+        let text = shared_text(&format!("mazes/udacity/{name}.txt"));
+        (name, Arc::new(format::parse(&text).expect("a maze").maze))
+    });
+    let (executor, rules) = (executor(), rules(SandboxLimits::default()));
+    for robot in bundled() {
+        let admitted = executor.admit(robot.component).expect("the host works");
+        let admitted = admitted.expect("a bundled robot");
+        for (variant, _) in variants(robot) {
+            let scores = mazes.each_ref().map(|(name, maze)| {
+                let spec = spec(&rules, admitted.digest(), maze, (variant, 0));
+                let played = executor.execute_with_details(&admitted, &spec);
+                let verdict = played.expect("the host works").record.verdict;
+                assert_eq!(verdict.fault(), None, "{}:{variant} in {name}", robot.name);
+                verdict.score().map(|score| score.thousandths())
+            });
+            match (robot.name, variant) {
+                ("flood", 0) => assert_eq!(scores, [22_033, 30_267, 46_067].map(Some)),
+                ("flood", 1) => assert_eq!(scores, [21_867, 28_433, 34_367].map(Some)),
+                _ => {}
             }
         }
     }
@@ -125,140 +162,90 @@ fn no_map_contradicts_the_maze() {
     }
 }
 
-/// The bundled mazes, and one of each family and size of the study.
-fn mazes() -> Vec<(String, String, Maze)> {
-    let first = *STUDY_SEEDS.start();
-    let families = study_families(first..=first);
-    let generated = families.into_iter().flat_map(|it| it.expand());
-    let generated = generated.map(|(name, maze)| {
+/// Seeds of generated mazes that no robot was fitted to.
+const SEEDS: RangeInclusive<u64> = 500_001..=500_100;
+
+/// The generated mazes of every kind and contest size with these seeds.
+fn families(seeds: &RangeInclusive<u64>) -> Vec<(String, Arc<Maze>)> {
+    let families = Kind::ALL.into_iter().flat_map(|kind| {
+        let spec = GenSpec::new(kind, GENERATED_DIMENSIONS, seeds.clone());
+        generated_mazes(&spec.expect("a few seeds").to_string())
+    });
+    families.collect()
+}
+
+/// The bundled mazes, and one of each kind and size.
+fn mazes() -> Vec<(String, String, Arc<Maze>)> {
+    let first = *SEEDS.start();
+    let bundled = bundled_mazes().into_iter();
+    let bundled = bundled.map(|(name, maze)| (name.to_owned(), maze));
+    let all = bundled.chain(families(&(first..=first)));
+    all.map(|(name, maze)| {
         let text = format::print(&maze, Format::Udacity).expect("a contest maze");
         (name, text, maze)
-    });
-    let bundled = maze::bundled().iter().map(|bundled| {
-        let maze = format::parse(bundled.text).expect("a maze").maze;
-        (bundled.name.to_owned(), bundled.text.to_owned(), maze)
-    });
-    bundled.chain(generated).collect()
+    })
+    .collect()
 }
 
-/// The same answers to the same readings: the host's simulation, fed with the
-/// native answers, agrees with every native reading and writes the trace of the
-/// component.
-fn check_same(maze: &Maze, played: &Played, outcome: &Outcome, trace: &Trace, place: &str) {
-    let rules = Ruleset::default();
-    let mut native = Trace::default();
-    sdk_arena::check_against(Simulation::new(maze, &rules, &mut native), played, place);
-    let mut steps = native.steps().iter().zip(trace.steps());
-    let differs = steps.position(|(native, component)| native != component);
-    assert_eq!(differs, None, "{place}: the first step that differs");
-    assert_eq!(native.steps().len(), trace.steps().len(), "{place}");
-    let steps = [played.exploration_steps, played.speed_steps];
-    assert_eq!(steps, outcome.steps, "{place}");
-    let finished = matches!(outcome.verdict, Verdict::Finished(_));
-    assert_eq!(played.finished, finished, "{place}");
-}
-
-fn variants(robot: &BundledRobot) -> Vec<(u32, &'static str)> {
-    if robot.variants.is_empty() {
-        return vec![(0, "0")];
-    }
-    let variants = robot.variants.iter();
-    variants
-        .map(|variant| (variant.value, variant.name))
-        .collect()
-}
-
-/// One maze of each family and size for every robot, and twenty for those that
-/// are not slow.
+/// One maze of each kind and size for every robot, and twenty for those that are not slow.
 #[test]
 fn robots_finish_a_sample_of_legal_mazes() {
-    let first = *STUDY_SEEDS.start();
-    let referee = referee();
-    let fuel = check_finished(&referee, entrants(&referee), first..=first);
-    let mut quick = entrants(&referee);
-    quick.retain(|entrant| fuel[&entrant.name] <= SLOW_FUEL);
-    check_finished(&referee, quick, first + 1..=first + 19);
+    let first = *SEEDS.start();
+    let fuel = check_finished(&(first..=first), |_| true);
+    check_finished(&(first + 1..=first + 19), |name| fuel[name] <= SLOW_FUEL);
 }
 
 #[test]
-#[ignore = "plays 2,000 mazes with every robot, which takes as long as `wasmouse study`"]
-fn robots_finish_all_mazes_of_the_study() {
-    let referee = referee();
-    check_finished(&referee, entrants(&referee), STUDY_SEEDS);
+#[ignore = "plays thousands of mazes with every robot, which takes many minutes"]
+fn robots_finish_thousands_of_legal_mazes() {
+    check_finished(&SEEDS, |_| true);
 }
 
-/// Threads of the contests in these tests.
-const THREADS: u32 = 2;
-
-fn referee() -> Referee {
-    Referee::new(Ruleset::default(), THREADS, None, Isolation::None)
+fn executor() -> InProcess {
+    let robots = u32::try_from(bundled().len()).expect("a few robots");
+    InProcess::new(Limits::default(), robots, None).expect("address space")
 }
 
-/// The bundled robots in all variants in which they have to finish.
-fn entrants(referee: &Referee) -> Vec<Entrant> {
-    let may_fail = |robot: &str, variant: &str| {
-        let is_it = |&(name, only): &(&str, Option<&str>)| {
-            name == robot && only.is_none_or(|only| only == variant)
-        };
-        MAY_FAIL.iter().any(is_it)
-    };
-    let mut entrants = Vec::new();
-    for robot in bundled() {
-        let admitted = admit(referee, robot.component);
-        for (variant, name) in variants(robot) {
-            if !may_fail(robot.name, name) {
-                entrants.push(Entrant {
-                    name: format!("{}:{name}", robot.name),
-                    digest: Digest::of(robot.component),
-                    setting: variant,
-                    admission: Ok(Arc::clone(&admitted)),
-                });
-            }
-        }
-    }
-    entrants
-}
-
-fn admit(referee: &Referee, component: &[u8]) -> Arc<Player> {
-    let admission = referee.admit(component, Trust::Trusted);
-    match admission.expect("address space for two matches") {
-        Ok(player) => Arc::new(player),
-        Err(refusal) => panic!("refused: {refusal}"),
-    }
-}
-
-/// Plays mazes of every family and size, requires that all matches are finished,
-/// and returns the fuel of the most expensive match of each entrant.
+/// Plays mazes of every kind and size with the chosen robots of those that must finish, requires
+/// that they do, and returns the fuel of the most expensive match of each robot and variant.
 fn check_finished(
-    referee: &Referee,
-    entrants: Vec<Entrant>,
-    seeds: RangeInclusive<u64>,
+    seeds: &RangeInclusive<u64>,
+    is_chosen: impl Fn(&str) -> bool + Sync,
 ) -> BTreeMap<String, u64> {
-    let rules = Ruleset::default();
-    let mazes = study_families(seeds).into_iter().flat_map(|it| it.expand());
-    let contest = Contest {
-        entrants,
-        mazes: mazes
-            .map(|(name, maze)| ContestMaze::new(name, maze, &rules))
-            .collect(),
-        seeds: vec![0],
-        rules,
-    };
-    let played = contest.run(referee, THREADS as usize, &AtomicBool::new(false), &|| ());
-    let results = played.expect("there are threads").results;
-    assert_eq!(results.len(), contest.matches());
-    let mut fuel = BTreeMap::new();
-    let mut failures = Vec::new();
-    for result in results {
-        let name = &contest.entrants[result.entrant].name;
-        let most: &mut u64 = fuel.entry(name.clone()).or_default();
-        *most = (*most).max(result.outcome.fuel.steps);
-        if !matches!(result.outcome.verdict, Verdict::Finished(_)) {
-            let maze = &contest.mazes[result.maze].name;
-            let verdict = result.outcome.verdict.title();
-            failures.push(format!("{name} in {maze}: {verdict}"));
+    let executor = executor();
+    let (rules, mazes) = (rules(SandboxLimits::default()), families(seeds));
+    let play = |robot: &BundledRobot| {
+        let mut fuel = BTreeMap::new();
+        let admitted = executor.admit(robot.component).expect("the host works");
+        let admitted = admitted.expect("a bundled robot");
+        for (variant, variant_name) in variants(robot) {
+            let name = format!("{}:{variant_name}", robot.name);
+            let may_fail = MAY_FAIL.iter().any(|it| *it == name || *it == robot.name);
+            if may_fail || !is_chosen(&name) {
+                continue;
+            }
+            let specs = mazes.iter();
+            let specs = specs.map(|(_, it)| spec(&rules, admitted.digest(), it, (variant, 0)));
+            let specs: Vec<MatchSpec> = specs.collect();
+            let (mut most, mut names) = (0, mazes.iter().map(|(name, _)| name));
+            let flow = executor.execute(&admitted, &specs, &mut |_, played| {
+                let record = played.expect("the host works").record;
+                let maze = names.next().expect("a maze for each match");
+                let finished = record.verdict.score().is_some();
+                assert!(finished, "{name} in {maze}: {}", record.verdict.title());
+                most = most.max(record.fuel.steps);
+                ControlFlow::Continue(())
+            });
+            assert!(flow.is_continue() && names.next().is_none(), "{name}");
+            fuel.insert(name, most);
         }
-    }
-    assert!(failures.is_empty(), "{}", failures.join("\n"));
-    fuel
+        fuel
+    };
+    let play = &play;
+    thread::scope(|scope| {
+        let robots = bundled().iter();
+        let threads: Vec<_> = robots.map(|it| scope.spawn(move || play(it))).collect();
+        let fuel = threads.into_iter().map(|it| it.join().expect("finished"));
+        fuel.flatten().collect()
+    })
 }

@@ -1,6 +1,6 @@
-//! What happens around the matches: processes killed or stopped at any time, several at
-//! work in one cache, a full disk, compiled robots damaged on disk. Nothing is scored
-//! wrongly, nothing is lost, no process stays behind, no file is half written.
+//! What happens around the matches: processes killed or stopped at any time, several contests
+//! with one cache, a full disk. No result is wrong or lost, no process stays behind, no file is
+//! half written.
 //!
 //! The tests that are ignored by default do the same 200 times; `cargo test --workspace
 //! --test it -- --ignored faults` runs them.
@@ -8,19 +8,18 @@
 #![cfg(target_os = "linux")]
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use wasmouse::robot::Digest;
-use wasmouse::robot::bundled::find;
+use wasmouse_engine::bundled::find;
 use wasmouse_tests::program::{Program, signal};
 
 use crate::binary;
 
-/// Robots from files, which play in workers, and a bundled one in enough mazes to be in
-/// the middle of something most of the time.
+/// Robots from files, which run in workers, and a bundled one, in enough mazes to be in the
+/// middle of a match most of the time.
 const CONTEST: [&str; 8] = [
     "run",
     "--json",
@@ -58,7 +57,7 @@ fn started(command: &mut Command) -> Child {
         .expect("the program starts")
 }
 
-/// What the contest gives when nothing happens to it, and how long it takes.
+/// The output of the contest when nothing happens to it, and how long it takes.
 fn undisturbed(program: &Program) -> (String, Duration) {
     let begin = Instant::now();
     let output = contest(program, "undisturbed").output().expect("it runs");
@@ -109,7 +108,7 @@ impl Dice {
     }
 }
 
-/// The next workers of a contest; none when there are none for a while, because it ends.
+/// The current workers of a contest; none when there are none for a while, because it ends.
 fn workers_met(program: &Program, contest: &Child) -> Vec<u32> {
     let mut looks = (0..100).map(|_| {
         thread::sleep(Duration::from_millis(1));
@@ -120,14 +119,14 @@ fn workers_met(program: &Program, contest: &Child) -> Vec<u32> {
     looks.find(|it| !it.is_empty()).unwrap_or_default()
 }
 
-/// Ends a worker, whichever it meets, at any time of a contest.
+/// Kills some worker at some time of a contest.
 fn kill_workers(rounds: u64) {
     let program = program();
     let (expected, time) = undisturbed(&program);
     let mut dice = Dice(1);
     let mut killed = 0;
     for round in 0..rounds {
-        // Every other round compiles anew.
+        // Every other round compiles the robots again.
         let cache = if round % 2 == 0 {
             format!("killed-{round}")
         } else {
@@ -163,8 +162,8 @@ fn a_killed_worker_changes_nothing_200_times() {
     kill_workers(200);
 }
 
-/// Ends the supervisor at any time: its workers go with it, and what it leaves on disk
-/// is as good as new for the next.
+/// Kills the supervisor at some time: its workers end with it, and what it leaves on disk does
+/// not affect the next contest.
 fn kill_supervisors(rounds: u64) {
     let program = program();
     let (expected, time) = undisturbed(&program);
@@ -267,148 +266,12 @@ fn the_same_contest_at_the_same_time() {
     assert_eq!(program.left_behind(), 0);
 }
 
-/// The same robot under two names gets the same results twice.
-#[test]
-fn the_same_robot_twice() {
-    let program = program();
-    let copy = program.folder().join("copy.wasm");
-    fs::copy(program.folder().join("flood-file.wasm"), copy).expect("a copy");
-    let mut command = program.command();
-    command.args([
-        "run",
-        "--json",
-        "flood-file.wasm",
-        "copy.wasm",
-        "test_maze_01",
-        "--no-cache",
-    ]);
-    let output = command.output().expect("it runs");
-    let document: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
-    let mut matches = document["matches"].as_array().expect("a list").clone();
-    for result in &mut matches {
-        result.as_object_mut().expect("an object").remove("robot");
-    }
-    assert_eq!(matches.len(), 2);
-    assert_eq!(matches[0], matches[1]);
-}
-
-/// Bytes of a compiled robot before its code: their digest.
-const DIGEST_BYTES: usize = 32;
-
-/// What can happen to a compiled robot on disk. The digest in front of it is that of
-/// the damaged code where `is_consistent`: then only wasmtime can tell.
-struct Damage {
-    name: &'static str,
-    is_consistent: bool,
-    damage: fn(&mut Vec<u8>),
-}
-
-const DAMAGES: [Damage; 5] = [
-    Damage {
-        name: "empty",
-        is_consistent: false,
-        damage: Vec::clear,
-    },
-    Damage {
-        name: "cut in the digest",
-        is_consistent: false,
-        damage: |it| it.truncate(7),
-    },
-    Damage {
-        name: "cut in the middle",
-        is_consistent: false,
-        damage: |it| it.truncate(it.len() / 2),
-    },
-    Damage {
-        name: "of another version",
-        is_consistent: true,
-        damage: |it| of_another_version(it),
-    },
-    Damage {
-        name: "of no kind",
-        is_consistent: true,
-        damage: |it| it[DIGEST_BYTES..].fill(0x5a),
-    },
-];
-
-/// Changes the version of wasmtime that the code says it is for: its first number,
-/// behind the version of the format and a length.
-fn of_another_version(entry: &mut [u8]) {
-    let version = wasmouse::robot::WASMTIME_VERSION;
-    let (major, _) = version.split_once('.').expect("three numbers");
-    let length = u8::try_from(major.len()).expect("a short number");
-    let marker = [&[0, length], major.as_bytes()].concat();
-    let found = entry.windows(marker.len()).position(|it| it == marker);
-    let at = found.expect("the code says its version");
-    entry[at + 2] ^= 1;
-}
-
-#[test]
-fn damaged_code_is_compiled_anew() {
-    let program = program();
-    for mode in [&[][..], &["--trust"]] {
-        let cache = program.folder().join(format!("damaged{}", mode.concat()));
-        let play = || {
-            let mut command = program.command();
-            command.args([
-                "run",
-                "--json",
-                "flood-file.wasm",
-                "test_maze_01",
-                "--cache",
-            ]);
-            command.arg(&cache).args(mode).output().expect("it runs")
-        };
-        let first = play();
-        let expected = text(&first.stdout);
-        assert_undisturbed(&first, &expected, "undamaged");
-        let entry = only_entry(&cache);
-        let good = fs::read(&entry).expect("the entry");
-        let check = |bytes: &[u8], what: &str| {
-            fs::write(&entry, bytes).expect("the entry");
-            assert_undisturbed(&play(), &expected, what);
-            assert!(
-                fs::read(only_entry(&cache)).expect("the entry") == good,
-                "{what}: kept"
-            );
-        };
-        for Damage {
-            name,
-            is_consistent,
-            damage,
-        } in &DAMAGES
-        {
-            let mut bytes = good.clone();
-            damage(&mut bytes);
-            if *is_consistent {
-                let digest = Digest::of(&bytes[DIGEST_BYTES..]);
-                bytes[..DIGEST_BYTES].copy_from_slice(digest.as_bytes());
-            }
-            check(&bytes, &format!("{name} {mode:?}"));
-        }
-        let mut dice = Dice(5);
-        for _ in 0..20 {
-            let bit = dice.below(good.len() as u64 * 8);
-            let mut bytes = good.clone();
-            bytes[usize::try_from(bit / 8).expect("an index")] ^= 1 << (bit % 8);
-            check(&bytes, &format!("bit {bit} flipped {mode:?}"));
-        }
-    }
-}
-
-/// The only file in that cache.
-fn only_entry(cache: &Path) -> std::path::PathBuf {
-    let mut entries = fs::read_dir(cache).expect("a cache");
-    let entry = entries.next().expect("an entry").expect("an entry").path();
-    assert!(entries.next().is_none(), "one entry in {}", cache.display());
-    entry
-}
-
 /// A small file system of its own, where this user may make one.
-struct SmallDisk(std::path::PathBuf);
+pub struct SmallDisk(PathBuf);
 
 impl SmallDisk {
-    fn new(folder: &Path, kilobytes: u32) -> Option<Self> {
+    /// A disk of that size at a new folder; `None` where this user may not mount one.
+    pub fn new(folder: &Path, kilobytes: u32) -> Option<Self> {
         fs::create_dir(folder).expect("a folder");
         let mounted = Command::new("mount")
             .args([
@@ -429,7 +292,13 @@ impl SmallDisk {
         Some(Self(folder.to_owned()))
     }
 
-    fn files(&self) -> usize {
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.0
+    }
+
+    /// How many files it has.
+    pub fn files(&self) -> usize {
         fs::read_dir(&self.0).expect("the disk").count()
     }
 }
@@ -440,33 +309,7 @@ impl Drop for SmallDisk {
     }
 }
 
-/// The cache has no room: robots are compiled anew each time, and it is told.
-#[test]
-fn a_full_disk_in_the_cache_is_told_and_changes_nothing() {
-    let program = program();
-    for mode in [&[][..], &["--trust"]] {
-        let folder = program.folder().join(format!("small{}", mode.concat()));
-        let Some(disk) = SmallDisk::new(&folder, 16) else {
-            return;
-        };
-        let run = |cache: &[&str]| {
-            let mut command = program.command();
-            command.args(["run", "--json", "flood-file.wasm", "test_maze_01"]);
-            let output = command.args(cache).args(mode).output().expect("it runs");
-            assert!(output.status.success(), "{}", text(&output.stderr));
-            (text(&output.stdout), text(&output.stderr))
-        };
-        let (expected, _) = run(&["--no-cache"]);
-        let (found, warning) = run(&["--cache", folder.to_str().expect("a path in text")]);
-        assert_eq!(found, expected, "{mode:?}");
-        let told = "warning: failed to use the cache of compiled robots at ";
-        assert!(warning.starts_with(told), "{mode:?}: {warning}");
-        assert!(warning.contains("No space left"), "{mode:?}: {warning}");
-        assert_eq!(disk.files(), 0, "{mode:?}: nothing half written stays");
-    }
-}
-
-/// Results have no room: the command fails, says so, and leaves no half file.
+/// There is no room for results: the command fails with a message and leaves no partial file.
 #[test]
 fn a_full_disk_for_results_is_a_failure() {
     let program = program();

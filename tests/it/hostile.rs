@@ -1,65 +1,89 @@
-//! Small robots in WebAssembly text on a host in this process, and a good robot that
-//! has to play as ever beside them.
+//! Small robots in WebAssembly text, run in this process, and a good robot whose next match they
+//! must not affect.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
-use wasmouse::maze::{self, format};
-use wasmouse::robot::bundled::find;
-use wasmouse::robot::{Digest, Game, Host, Outcome, Recorder};
-use wasmouse::sim::{Limits, Ruleset};
+use wasmouse_core::Digest;
+use wasmouse_core::game::{Ruleset, SandboxLimits};
+use wasmouse_core::record::FuelUse;
+use wasmouse_engine::admission::Rejection;
+use wasmouse_engine::bundled::find;
+use wasmouse_engine::{AdmissionLimits, AdmittedRobot, DetailedMatch, Executor, InProcess, Limits};
 
-pub use wasmouse_tests::module::{DRIVE_ON, IMPORT_LOG, Module, START_PARAMETERS, wasm};
+use crate::matches::{bundled_mazes, rules, spec};
 
-/// The default rules under other limits.
-pub fn rules(limits: Limits) -> Ruleset {
-    Ruleset {
-        limits,
-        ..Ruleset::default()
+pub use wasmouse_tests::module::{IMPORT_LOG, Module, wasm};
+
+/// Limits that suffice for the flood robot, with fuel that is used up in milliseconds.
+pub const SMALL: Limits = Limits {
+    sandbox: SandboxLimits {
+        start_fuel_max: 4_000_000,
+        step_fuel_max: 4_000_000,
+        match_fuel_max: 40_000_000,
+        memory_bytes_max: 4 << 20,
+        table_elements_max: 1000,
+        stack_bytes_max: 128 << 10,
+        journal_bytes_max: 1000,
+        host_call_bytes_max: 4096,
+    },
+    admission: AdmissionLimits {
+        component_bytes_max: 100_000,
+        core_instances_max: 8,
+        memories_max: 4,
+        tables_max: 4,
+        ..AdmissionLimits::DEFAULT
+    },
+};
+
+/// An executor for one match at a time in this process, and its rules.
+pub struct Engine {
+    /// The executor, without a cache.
+    pub executor: InProcess,
+    rules: Arc<Ruleset>,
+}
+
+impl Engine {
+    /// An engine that enforces these limits.
+    pub fn new(limits: Limits) -> Self {
+        Self {
+            executor: InProcess::new(limits, 1, None).expect("address space for one match"),
+            rules: rules(limits.sandbox),
+        }
     }
-}
 
-/// A host for one match at a time, without a cache.
-pub fn host(limits: Limits) -> Host {
-    Host::new(limits, 1, None).expect("address space for one match")
-}
+    /// Admits or rejects a file.
+    pub fn admit(&self, file: &[u8]) -> Result<AdmittedRobot, Rejection> {
+        self.executor.admit(file).expect("the host works")
+    }
 
-/// What the robot does in the first bundled maze on that host.
-///
-/// # Panics
-///
-/// When the robot is refused or the host fails.
-#[track_caller]
-pub fn play(host: &Host, component: &[u8], recorder: &mut Recorder) -> Outcome {
-    let robot = match host.admit(component) {
-        Ok(robot) => robot,
-        Err(refusal) => panic!("refused: {refusal}"),
-    };
-    let maze = format::parse(maze::bundled()[0].text)
-        .expect("bundled mazes parse")
-        .maze;
-    let rules = rules(*host.limits());
-    let game = Game {
-        maze: &maze,
-        rules: &rules,
-        seed: 0,
-        setting: 0,
-    };
-    host.play(&robot, &game, recorder)
-        .unwrap_or_else(|error| panic!("the host failed: {error}"))
-}
+    /// Plays the robot in the first bundled maze.
+    ///
+    /// # Panics
+    ///
+    /// When the robot is rejected.
+    #[track_caller]
+    pub fn play(&self, component: &[u8]) -> DetailedMatch {
+        let robot = match self.admit(component) {
+            Ok(robot) => robot,
+            Err(rejection) => panic!("rejected: {rejection}"),
+        };
+        let (_, maze) = &bundled_mazes()[0];
+        let spec = spec(&self.rules, robot.digest(), maze, (0, 0));
+        let played = self.executor.execute_with_details(&robot, &spec);
+        played.expect("the host works")
+    }
 
-/// The bundled flood robot plays on this host as it does on a host that has seen
-/// nothing else.
-#[track_caller]
-pub fn assert_unharmed(host: &Host) {
-    static UNHARMED: OnceLock<(Outcome, Digest)> = OnceLock::new();
-    let flood = |host: &Host| {
-        let mut recorder = Recorder::default();
-        let robot = find("flood").expect("a bundled robot");
-        let outcome = play(host, robot.component, &mut recorder);
-        (outcome, Digest::of(&recorder.trace.identity_bytes()))
-    };
-    let expected = UNHARMED.get_or_init(|| flood(&self::host(Limits::default())));
-    assert_eq!(expected.0.verdict.name(), "finished");
-    assert_eq!(&flood(host), expected, "the next match is not as ever");
+    /// The bundled flood robot plays as in an engine that has run nothing else.
+    #[track_caller]
+    pub fn assert_unharmed(&self) {
+        static UNHARMED: OnceLock<(FuelUse, Digest)> = OnceLock::new();
+        let flood = |engine: &Self| {
+            let robot = find("flood").expect("a bundled robot");
+            let record = engine.play(robot.component).record;
+            assert_eq!(record.verdict.title(), "finished");
+            (record.fuel, record.transcript)
+        };
+        let expected = UNHARMED.get_or_init(|| flood(&Self::new(Limits::default())));
+        assert_eq!(&flood(self), expected, "the next match differs");
+    }
 }

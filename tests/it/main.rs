@@ -1,70 +1,78 @@
 //! End-to-end tests, one module per topic.
 //!
-//! Tests that need material from outside the repository find it through
-//! [`shared`] and say `skipped: ...` where it is absent.
+//! Tests that need material from outside the repository find it through [`shared`] and are
+//! reported as ignored where it is absent.
 
 /// The `wasmouse` binary.
 use wasmouse_tests::binary;
 
-/// The cache of compiled robots, damaged and unusable.
+/// The cache of compiled robots: damaged, unusable, writable by others.
 mod cache;
-/// The champion's promises: it finishes, its proofs hold, its training is clean.
+/// The champion: it finishes, its proofs hold, it was not trained on test mazes.
 mod champion;
-/// What commands print, and how they fail.
+/// The command line: output, files, exit codes.
 mod cli;
-/// What workers cannot do, tried from inside.
-mod confinement;
-/// The rules: recorded games and games written by hand.
+/// The rules: recorded matches and matches written by hand.
 mod conformance;
 /// The core: few dependencies, and compiled for WebAssembly.
 mod core_crate;
-/// The same bytes from the same contest.
+/// The hostile corpus, in this process.
+mod corpus;
+/// The same results from any number of jobs, in process and in workers.
 mod determinism;
-/// Every bundled robot: native and component alike, and who has to finish.
+/// Every bundled robot: the same match natively, correct maps, and who must finish.
 mod every_robot;
-/// Processes killed, disks full, compiled robots damaged.
+/// Killed processes, full disks, damaged files.
 mod faults;
+/// Results of every bundled robot, compared with a table to the last unit of fuel.
+mod fingerprints;
 /// Maze files: reading, round trips, and a survey counted in another way.
 mod formats;
-/// Robots in WebAssembly text, and a good one beside them.
+/// Robots in WebAssembly text, and a good robot that plays after them.
 mod hostile;
-/// Ctrl-C in a contest.
+/// Ctrl-C during a contest.
 mod interrupt;
 /// Imports between the folders of the host.
 mod layers;
-/// Memory of the process, however many matches are played.
+/// Mazes, rules and match specifications for the other modules.
+mod matches;
+/// Memory use over many matches.
 mod memory;
 /// Minnett's robot in generated mazes.
 mod minnett;
+/// Robot projects, and files of results.
+mod projects;
 /// The prebuilt robots against their sources and their manifest.
 mod prebuilt;
 /// The check before compilation: limits, bombs, proposals.
 mod precheck;
-/// The README's tutorial and examples, run as they stand there.
+/// The commands of the README.
 mod readme;
-/// Files that are no robots, and the reasons.
-mod refusals;
+/// The page that compares the bundled robots with the published reports.
+mod reference;
+/// Rejections that depend on the limits or the version.
+mod rejections;
 /// The results document against its JSON Schema.
 mod results_schema;
 /// The example robots, natively, in mazes of every size and shape.
 mod robots_native;
-/// The SDK's testing arena against the recorded vectors and the host's simulation.
+/// What workers cannot do, tried from inside.
+mod sandbox;
+/// The SDK's testing arena against the recorded matches and the host's simulation.
 mod sdk_arena;
 /// Where the shared material is.
 mod shared;
-/// Optimal paths and the floor of the official mazes.
+/// Optimal paths and the oracle scores of the official mazes.
 mod solver;
-/// Closed pipes, full disks and terminals.
+/// Results on standard output, and pipes that close.
 mod streams;
-/// `wasmouse study` and the page that it writes.
-mod study;
-/// Robots that fail, and the verdicts on them.
+/// Verdicts that depend on the limits, and panics.
 mod verdicts;
-/// Recorded results played again, and contests played twice.
+/// `wasmouse verify`: the same, reformatted, changed, or from another version.
 mod verify;
 /// The WIT against its history, and the SDK's bindings against the WIT.
 mod wit;
 /// A robot written with `wit-bindgen` alone.
 mod without_sdk;
-/// Robots in worker processes.
+/// Robots in worker processes: the same results, whatever happens to the workers.
 mod workers;

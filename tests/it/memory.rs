@@ -1,5 +1,4 @@
-//! A match leaves a result behind and nothing else: memory does not grow with the
-//! number of matches beyond their results.
+//! A match leaves nothing behind but its result: memory does not grow faster than the results.
 
 #![cfg(target_os = "linux")]
 

@@ -3,15 +3,14 @@
 use std::fs;
 use std::path::Path;
 
-use wasmouse::maze::{self, format};
-use wasmouse::robot::bundled::{BundledRobot, bundled};
-use wasmouse::robot::{FaultKind, Game, Host, Outcome, Phase, Recorder, Robot, Verdict};
-use wasmouse::sim::Ruleset;
+use wasmouse_core::game::{FaultKind, Phase, SandboxLimits};
+use wasmouse_engine::bundled::{bundled, find};
+use wasmouse_engine::{Executor as _, Frame, InProcess, Limits, Recording, Runtime};
 use xtask::manifest::Manifest;
 use xtask::verify::BUILT_ROBOTS_VARIABLE;
 use xtask::{repository, robots};
 
-use crate::binary::{ran, wasmouse};
+use crate::matches::{bundled_mazes, rules, spec, variants};
 
 #[test]
 fn no_prebuilt_robot_is_stale() {
@@ -47,7 +46,7 @@ fn the_host_embeds_what_the_manifest_lists() {
     }
 }
 
-/// Robots that were built from source just now answer as the prebuilt ones do.
+/// Robots that were built from source just now play as the prebuilt ones do.
 /// Fuel is not compared: another compiler may need other instructions.
 #[test]
 fn robots_built_from_source_play_the_same_matches() {
@@ -55,66 +54,50 @@ fn robots_built_from_source_play_the_same_matches() {
         println!("skipped: `cargo xtask test` builds the robots from source for this test");
         return;
     };
-    let rules = Ruleset::default();
-    let host = Host::new(rules.limits, 1, None).expect("address space for one match");
+    let rules = rules(SandboxLimits::default());
+    let runtime = Runtime::new(Limits::default(), 1, None).expect("address space");
     for prebuilt in bundled() {
         let file = Path::new(&built).join(prebuilt.name).with_extension("wasm");
         let source = fs::read(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
-        let admit = |bytes: &[u8]| host.admit(bytes).expect("bundled robots are admitted");
-        let (prebuilt_robot, source_robot) = (admit(prebuilt.component), admit(&source));
-        for variant in variants(prebuilt) {
-            for bundled_maze in maze::bundled() {
-                let parsed = format::parse(bundled_maze.text).expect("bundled mazes parse");
-                let game = Game {
-                    maze: &parsed.maze,
-                    rules: &rules,
-                    seed: 1,
-                    setting: variant,
-                };
-                let (expected, expected_record) = play(&host, &prebuilt_robot, &game);
-                let (found, found_record) = play(&host, &source_robot, &game);
-                let place = format!(
-                    "{}, variant {variant}, {}",
-                    prebuilt.name, bundled_maze.name
-                );
-                assert_eq!(found.verdict, expected.verdict, "{place}");
-                assert_eq!(found.steps, expected.steps, "{place}");
-                assert_eq!(found.counts, expected.counts, "{place}");
-                assert_eq!(found_record.trace, expected_record.trace, "{place}");
+        let admit = |bytes: &[u8]| runtime.admit(bytes).expect("bundled robots are admitted");
+        let robots = [admit(prebuilt.component), admit(&source)];
+        for (variant, _) in variants(prebuilt) {
+            for (maze_name, maze) in bundled_mazes() {
+                let [expected, found] = robots.each_ref().map(|robot| {
+                    let spec = spec(&rules, robot.digest(), &maze, (variant, 1));
+                    let mut recording = Recording::default();
+                    let played = runtime.run(robot, &spec, &mut recording);
+                    let (result, _) = played.expect("the host works");
+                    (result, recording.transcript)
+                });
+                assert_eq!(found, expected, "{}:{variant}, {maze_name}", prebuilt.name);
             }
         }
     }
 }
 
+/// A variant that no bundled robot has.
+const NO_VARIANT: u32 = 1000;
+
 /// A panic of a Rust robot reaches the verdict with its message and place, through the hook
 /// that `export_robot!` installs while the component is instantiated.
 #[test]
 fn a_panic_says_what_and_where() {
-    let rules = Ruleset::default();
-    let host = Host::new(rules.limits, 1, None).expect("address space for one match");
-    let maze = format::parse(maze::bundled()[0].text)
-        .expect("bundled mazes parse")
-        .maze;
+    let (executor, rules) = (executor(), rules(SandboxLimits::default()));
+    let (_, maze) = &bundled_mazes()[0];
     for robot in bundled() {
-        let admitted = host.admit(robot.component).expect("a bundled robot");
-        let game = Game {
-            maze: &maze,
-            rules: &rules,
-            seed: 0,
-            setting: 1000,
-        };
-        let (outcome, _) = play(&host, &admitted, &game);
-        let Verdict::Fault(fault) = outcome.verdict else {
-            panic!("{} has no variant 1000", robot.name);
-        };
+        let admitted = executor.admit(robot.component).expect("the host works");
+        let admitted = admitted.expect("a bundled robot");
+        let spec = spec(&rules, admitted.digest(), maze, (NO_VARIANT, 0));
+        let played = executor.execute_with_details(&admitted, &spec);
+        let verdict = played.expect("the host works").record.verdict;
+        let fault = verdict.fault().expect("a panic");
         let found = (fault.kind, fault.phase, fault.step);
         assert_eq!(found, (FaultKind::Panic, Phase::Start, 0), "{}", robot.name);
         let source = format!("(example-robots/{}/src/lib.rs:", robot.name);
         let detail = &fault.detail;
-        assert!(
-            detail.starts_with("panicked: ") && detail.contains("variant"),
-            "{detail}"
-        );
+        assert!(detail.starts_with("panicked: "), "{detail}");
+        assert!(detail.contains("variant"), "{detail}");
         assert!(
             detail.contains(&source) && detail.ends_with(')'),
             "{detail}"
@@ -124,33 +107,30 @@ fn a_panic_says_what_and_where() {
 
 /// The backtrace of a panic shows the robot's functions and not those that report it.
 #[test]
-fn a_panic_is_explained_without_the_runtime() {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let flood = bundled().iter().find(|robot| robot.name == "flood");
-    let file = folder.path().join("flood.wasm");
-    fs::write(&file, flood.expect("a bundled robot").component).expect("a writable folder");
-    let ran = ran(wasmouse()
-        .args(["run", "flood.wasm:1000", "--no-cache"])
-        .current_dir(&folder));
-    for shown in ["0: <robot_flood::", "frames of the Rust runtime hidden)"] {
-        assert!(ran.stderr.contains(shown), "{shown}: {}", ran.stderr);
-    }
+fn a_backtrace_hides_the_runtime() {
+    let (executor, rules) = (executor(), rules(SandboxLimits::default()));
+    let (_, maze) = &bundled_mazes()[0];
+    let file = find("flood").expect("a bundled robot").component;
+    let robot = executor.admit(file).expect("the host works");
+    let robot = robot.expect("a bundled robot");
+    let spec = spec(&rules, robot.digest(), maze, (NO_VARIANT, 0));
+    let played = executor.execute_with_details(&robot, &spec);
+    let verdict = played.expect("the host works").record.verdict;
+    let fault = verdict.fault().expect("a panic");
+    let frames = executor.backtrace(&robot, file, &spec, fault);
+    let frames = frames.expect("the host works").expect("the same fault");
+    let of_robot = Frame::of_robot(&frames);
+    assert!(of_robot.len() < frames.len(), "{frames:?}");
+    let functions: Vec<&str> = of_robot.iter().map(|it| it.function.as_str()).collect();
+    assert!(functions[0].starts_with("<robot_flood::"), "{functions:?}");
     for hidden in ["panicking", "rust_", "function 0", "report_panics"] {
-        assert!(!ran.stderr.contains(hidden), "{hidden}: {}", ran.stderr);
+        assert!(
+            !functions.iter().any(|it| it.contains(hidden)),
+            "{functions:?}"
+        );
     }
 }
 
-fn variants(robot: &BundledRobot) -> Vec<u32> {
-    if robot.variants.is_empty() {
-        return vec![0];
-    }
-    robot.variants.iter().map(|variant| variant.value).collect()
-}
-
-fn play(host: &Host, robot: &Robot, game: &Game<'_>) -> (Outcome, Recorder) {
-    let mut recorder = Recorder::default();
-    let outcome = host
-        .play(robot, game, &mut recorder)
-        .expect("the host does not fail");
-    (outcome, recorder)
+fn executor() -> InProcess {
+    InProcess::new(Limits::default(), 1, None).expect("address space for one match")
 }

@@ -1,14 +1,13 @@
-//! The check before compilation: every limit holds exactly, files that would take a
-//! compiler minutes are refused at once, and damage never panics.
+//! The check before compilation: every limit is exact, files that would take a compiler minutes
+//! are rejected at once, and damaged files cause no panic.
 
 use std::time::Instant;
 
 use proptest::prelude::*;
-use wasmouse::robot::bundled::bundled;
-use wasmouse::robot::componentize::BinaryKind;
-use wasmouse::robot::engine_config;
-use wasmouse::robot::precheck::{Measure, Measures, precheck};
-use wasmouse::sim::Limits;
+use wasmouse_engine::admission::BinaryKind;
+use wasmouse_engine::admission::precheck::{Measure, Measures, precheck};
+use wasmouse_engine::bundled::bundled;
+use wasmouse_engine::{Limits, engine_config};
 use wasmouse_tests::{bombs, corpus};
 use wasmtime::component::Component;
 
@@ -16,25 +15,31 @@ use wasmtime::component::Component;
 /// more than it does, and far less than compiling would.
 const SECONDS_MAX: u64 = 30;
 
+/// Requires that the file is rejected soon, and returns the rejection after its name.
+#[track_caller]
+fn rejection(file: &[u8], what: &str) -> String {
+    let start = Instant::now();
+    let rejection = precheck(file, &Limits::default()).expect_err(what);
+    let seconds = start.elapsed().as_secs();
+    assert!(seconds < SECONDS_MAX, "{rejection}: {seconds} s");
+    format!("{}: {rejection}", rejection.name())
+}
+
 #[track_caller]
 fn check(file: &[u8], expected: &str) {
-    let start = Instant::now();
-    let refusal = precheck(file, &Limits::default()).expect_err(expected);
-    let seconds = start.elapsed().as_secs();
-    let told = format!("{}: {refusal}", refusal.name());
-    assert!(told.starts_with(expected), "{told}\nexpected {expected}");
-    assert!(seconds < SECONDS_MAX, "{told}: {seconds} s");
+    let found = rejection(file, expected);
+    assert!(found.starts_with(expected), "{found}\nexpected {expected}");
 }
 
 #[test]
-fn bombs_are_refused_for_what_makes_them_one() {
-    let nested = "over-limit: the file has 65 loops inside each other, and the limit is 64 \
+fn bombs_are_rejected_for_what_makes_them_one() {
+    let nested = "over-limit: the file has 65 nested loops, and the limit is 64 \
         (function 0 `bomb`, byte ";
     check(&bombs::nested_loops(1000), nested);
     check(&bombs::nested_loops(10_000), nested);
     check(
         &bombs::nested_blocks(10_000),
-        "over-limit: the file has 4001 blocks inside each other, and the limit is 4000 ",
+        "over-limit: the file has 4001 nested blocks, and the limit is 4000 ",
     );
     for (file, what) in [
         (
@@ -50,7 +55,7 @@ fn bombs_are_refused_for_what_makes_them_one() {
             "blocks of control flow in a function",
         ),
         (
-            bombs::ways_out(3000, 30),
+            bombs::exits(3000, 30),
             "values carried by the branches of a function",
         ),
         (
@@ -91,19 +96,13 @@ fn bombs_are_refused_for_what_makes_them_one() {
         (bombs::types(1_000_000), "function types in a core module"),
         (bombs::long_name(90_000), "bytes in a name"),
         (bombs::exponential(30), "core instances"),
-        (
-            bombs::nested_components(900),
-            "components inside each other",
-        ),
+        (bombs::nested_components(900), "nested components"),
         (bombs::doubled_tuple(16), "parts in a component type"),
         (bombs::wide_record(9_000), "parts in a component type"),
     ] {
-        let start = Instant::now();
-        let refusal = precheck(&file, &Limits::default()).expect_err(what);
-        let told = refusal.to_string();
-        assert_eq!(refusal.name(), "over-limit", "{told}");
-        assert!(told.contains(&format!(" {what}, and")), "{told}\n{what}");
-        assert!(start.elapsed().as_secs() < SECONDS_MAX, "{told}");
+        let found = rejection(&file, what);
+        assert!(found.starts_with("over-limit: "), "{found}");
+        assert!(found.contains(&format!(" {what}, and")), "{found}\n{what}");
     }
 }
 
@@ -111,7 +110,7 @@ fn bombs_are_refused_for_what_makes_them_one() {
 fn samples() -> Vec<Vec<u8>> {
     vec![
         bombs::branch_tables(30, 30),
-        bombs::ways_out(100, 10),
+        bombs::exits(100, 10),
         bombs::nested_loops(20),
         bombs::typed_blocks(100, 5),
         bombs::stacked_values(100, 50),
@@ -129,14 +128,14 @@ fn samples() -> Vec<Vec<u8>> {
 
 /// The limit of one measure.
 fn set(limits: &mut Limits, measure: Measure, max: u64) {
-    let admission = &mut limits.admission;
+    let Limits { sandbox, admission } = limits;
     let small = u32::try_from(max).expect("samples are small");
     match measure {
-        Measure::CoreInstances => limits.core_instances_max = small,
-        Measure::Memories => limits.memories_max = small,
-        Measure::MemoryBytes => limits.memory_bytes_max = max,
-        Measure::Tables => limits.tables_max = small,
-        Measure::TableElements => limits.table_elements_max = max,
+        Measure::CoreInstances => admission.core_instances_max = small,
+        Measure::Memories => admission.memories_max = small,
+        Measure::MemoryBytes => sandbox.memory_bytes_max = max,
+        Measure::Tables => admission.tables_max = small,
+        Measure::TableElements => sandbox.table_elements_max = max,
         Measure::ComponentDepth => admission.component_depth_max = small,
         Measure::ComponentItems => admission.component_items_max = small,
         Measure::ExpandedItems => admission.expanded_items_max = small,
@@ -164,7 +163,7 @@ fn set(limits: &mut Limits, measure: Measure, max: u64) {
     }
 }
 
-/// A file that has exactly as much as the limit is admitted, and refused when the
+/// A file that has exactly as much as the limit is admitted, and rejected when the
 /// limit is 1 lower.
 #[test]
 fn every_limit_is_exact() {
@@ -194,11 +193,10 @@ fn every_limit_is_exact() {
         let shape = precheck(file, &limits).expect("exactly at the limit");
         assert_eq!(shape.measures, *measures);
         set(&mut limits, measure, found - 1);
-        let told = precheck(file, &limits)
-            .expect_err(measure.name())
-            .to_string();
+        let rejection = precheck(file, &limits).expect_err(measure.name());
         let expected = format!(" {}, and the limit is {} (", measure.what(), found - 1);
-        assert!(told.contains(&expected), "{told}\n{expected}");
+        let found = rejection.to_string();
+        assert!(found.contains(&expected), "{found}\n{expected}");
     }
 }
 
@@ -221,41 +219,37 @@ fn bundled_robots_are_far_from_every_limit() {
 }
 
 #[test]
-fn a_refusal_names_module_and_function() {
+fn a_rejection_names_module_and_function() {
     let text = r#"(component (core module) (core module
         (func) (func $hot (export "x") (param i32) (br_table 0 0 0 0 0 (local.get 0)))))"#;
     let mut limits = Limits::default();
     limits.admission.branch_targets_max = 3;
     let file = wat::parse_str(text).expect("written here");
-    let told = precheck(&file, &limits).expect_err("4 targets").to_string();
-    assert!(
-        told.starts_with(
-            "the file has 4 targets in a branch table, and the limit is 3 \
-             (core module 1, function 1 `hot`, byte "
-        ),
-        "{told}"
-    );
+    let rejection = precheck(&file, &limits).expect_err("4 targets").to_string();
+    let expected = "the file has 4 targets in a branch table, and the limit is 3 \
+        (core module 1, function 1 `hot`, byte ";
+    assert!(rejection.starts_with(expected), "{rejection}");
 }
 
-/// Robots of the corpus that have to play are not refused for their size.
+/// Robots of the corpus that must play are not rejected for their size.
 #[test]
 fn robots_that_play_are_within_the_limits() {
     let mut over = Vec::new();
     for case in corpus::cases() {
-        let plays = |expected: &serde_json::Value| expected.get("refusal").is_none();
+        let plays = |expected: &serde_json::Value| expected.get("rejection").is_none();
         if !case.expected.iter().all(plays) {
             continue;
         }
         for file in case.files() {
-            if let Err(refusal) = precheck(&file, &Limits::default()) {
-                over.push(format!("{}: {refusal}", case.name));
+            if let Err(rejection) = precheck(&file, &Limits::default()) {
+                over.push(format!("{}: {rejection}", case.name));
             }
         }
     }
     assert_eq!(over, [""; 0]);
 }
 
-/// What is instantiated has to be known, or it could not be counted.
+/// What is instantiated must be known, or it could not be counted.
 #[test]
 fn foreign_components_are_not_instantiated() {
     for text in [
@@ -273,7 +267,7 @@ fn foreign_components_are_not_instantiated() {
     }
 }
 
-/// Proposals that the engine does not have are refused here, and by name.
+/// Proposals that are turned off are rejected by name.
 #[test]
 fn proposals_that_are_off() {
     for (text, words) in [
@@ -294,20 +288,16 @@ fn proposals_that_are_off() {
         ("(component (type (list u8 4)))", "fixed-length"),
         ("(component (type error-context))", "error"),
     ] {
-        let Ok(file) = wat::parse_str(text) else {
-            panic!("{text}: not encoded");
-        };
-        let refusal = precheck(&file, &Limits::default()).expect_err(text);
-        assert_eq!(refusal.name(), "invalid", "{text}: {refusal}");
-        let told = refusal.to_string();
-        assert!(told.contains(" at byte "), "{told}");
-        let lower = told.to_lowercase();
-        assert!(lower.contains(&words.to_lowercase()), "{text}: {told}");
+        let file = wat::parse_str(text).unwrap_or_else(|error| panic!("{text}: {error}"));
+        let found = rejection(&file, text);
+        assert!(found.starts_with("invalid: "), "{text}: {found}");
+        assert!(found.contains(" at byte "), "{found}");
+        let lower = found.to_lowercase();
+        assert!(lower.contains(&words.to_lowercase()), "{text}: {found}");
     }
 }
 
-/// The check knows no engine; it lets through the proposals that the engine has, and no
-/// others.
+/// The check knows no engine; it admits the proposals that the engine has, and no others.
 #[test]
 fn the_proposals_are_those_of_the_engine() {
     let engine = wasmtime::Engine::new(&engine_config(&Limits::default(), 1));
@@ -369,7 +359,7 @@ fn the_proposals_are_those_of_the_engine() {
 }
 
 proptest! {
-    /// Damaged files are refused or admitted; nothing panics.
+    /// Damaged files are rejected or admitted; nothing panics.
     #[test]
     fn damage_never_panics(
         which in any::<prop::sample::Index>(),

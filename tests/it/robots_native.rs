@@ -1,7 +1,7 @@
-//! What every example robot owes in every maze it can meet: no panic, no bump, no
-//! refused reset. And what some of them owe in legal ones: to finish.
+//! In every maze that can be loaded, no example robot panics, bumps or makes a reset that is
+//! ignored; in legal mazes, some of them must finish.
 //!
-//! Played natively in the SDK's arena, which is fast enough for thousands.
+//! Played natively in the SDK's arena, which is fast enough for thousands of matches.
 
 use robot_champion::Champion;
 use robot_count_expansion::CountExpansion;
@@ -12,29 +12,19 @@ use robot_minnett::Minnett;
 use robot_rai::Rai;
 use robot_random::RandomWalk;
 use robot_wall_follower::WallFollower;
-use wasmouse::maze::format::{self, Format};
-use wasmouse::maze::generate::GenSpec;
-use wasmouse::maze::{self, Walls};
+use wasmouse_core::maze::format::{self, Format};
+use wasmouse_core::maze::{self, Walls};
 use wasmouse_sdk::testing::{self, PlayOptions, Played};
 use wasmouse_sdk::{Area, BudgetScope, Cell, Random, Robot};
+
+use crate::matches::{KINDS, bundled_mazes, generated_mazes};
 
 /// Flood, depth-first search, Lobato's robots and Rai's planner finish every legal
 /// maze within the budget, in each of their variants.
 #[test]
 fn finish_legal_mazes() {
-    let kinds = [
-        "division",
-        "tree,loops=0",
-        "tree,loops=12",
-        "tree,loops=60",
-        "braid",
-        "stretches",
-    ];
-    for kind in kinds {
-        let spec: GenSpec = format!("gen:{kind}:12..=20:1..=12")
-            .parse()
-            .expect("a specification");
-        for (name, maze) in spec.expand() {
+    for kind in KINDS {
+        for (name, maze) in generated_mazes(&format!("gen:{kind}:12..=20:1..=12")) {
             let text = format::print(&maze, Format::Udacity).expect("a contest maze");
             finishes::<Flood>(2, &name, &text);
             finishes::<DepthFirst>(3, &name, &text);
@@ -58,22 +48,22 @@ fn finishes<R: Robot>(variants: u32, maze: &str, text: &str) {
     }
 }
 
-/// The experiment of Lobato's report, section 5.1: in the maze with a long way that
-/// the heuristic likes and a short one that it does not, A* alone takes the long one,
-/// and the swing finds the short one.
+/// The experiment of Lobato's report, section 5.1: in a maze with a long path that the
+/// heuristic favours and a short one that it does not, A* alone takes the long one, and the
+/// swing finds the short one.
 #[test]
-fn the_swing_finds_the_way_that_a_star_alone_does_not() {
-    let bundled = maze::bundled();
-    let detour = bundled.iter().find(|it| it.name == "lobato-detour");
-    let text = detour.expect("a bundled maze").text;
-    let maze = format::parse(text).expect("bundled mazes parse").maze;
-    let best = maze::shortest_path(&maze, maze::Metric::STEPS).expect("a way");
+fn the_swing_finds_the_path_that_a_star_alone_does_not() {
+    let mazes = bundled_mazes();
+    let detour = mazes.iter().find(|(name, _)| *name == "lobato-detour");
+    let (_, maze) = detour.expect("a bundled maze");
+    let text = format::print(maze, Format::Udacity).expect("a contest maze");
+    let best = maze::shortest_path(maze, maze::Metric::STEPS).expect("a path");
     let found = [0, 1, 2, 3, 4].map(|variant| {
         let options = PlayOptions {
             variant,
             ..PlayOptions::default()
         };
-        let played = play::<Lobato>(text, &options);
+        let played = play::<Lobato>(&text, &options);
         (played.speed_steps == best.steps(), played.summary())
     });
     let expected = [
@@ -146,8 +136,8 @@ fn play<R: Robot>(text: &str, options: &PlayOptions) -> Played {
     let name = std::any::type_name::<R>();
     assert_eq!(played.bumps, 0, "{name} with {options:?} in\n{text}");
     assert_eq!(played.clamps, 0, "{name} with {options:?} in\n{text}");
-    let refused = (played.resets_before_goal, played.resets_in_run_2);
-    assert_eq!(refused, (0, 0), "{name} with {options:?} in\n{text}");
+    let ignored = (played.resets_before_goal, played.resets_in_run_2);
+    assert_eq!(ignored, (0, 0), "{name} with {options:?} in\n{text}");
     played
 }
 

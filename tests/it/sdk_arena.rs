@@ -1,25 +1,24 @@
-//! The SDK's testing arena and the host's simulation are two implementations of the
-//! same rules. Here the arena replays the recorded vectors, and both play the same
-//! random answers.
+//! The SDK's testing arena and the host's simulation are two implementations of the same rules:
+//! both replay the recorded matches, and both play the same random actions.
 
 use std::cell::RefCell;
-use std::fs;
 
 use serde_json::{Value, json};
-use wasmouse::maze::format::{self, Format};
-use wasmouse::maze::generate::GenSpec;
-use wasmouse::sim::{self, Ruleset, Simulation, Trace};
+use wasmouse_core::game::{self, GameRules, Ruleset, Simulation, Trace, Verdict};
+use wasmouse_core::maze;
+use wasmouse_core::maze::format::{self, Format};
 use wasmouse_sdk::testing::{self, PlayOptions, Played, Score};
 use wasmouse_sdk::{Action, Briefing, Cell, Heading, Pose, Random, Robot, Sensors, Turn};
 
-use crate::shared::shared;
+use crate::conformance::{self, recorded};
+use crate::matches::generated_mazes;
 
 thread_local! {
-    /// What [`Script`] answers.
+    /// The actions of the next [`Script`].
     static SCRIPT: RefCell<Vec<Action>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Answers what it was told to, whatever it sees.
+/// Performs the given actions, whatever it senses.
 struct Script {
     actions: std::vec::IntoIter<Action>,
 }
@@ -31,7 +30,7 @@ impl Robot for Script {
     }
 
     fn next_move(&mut self, _: Sensors) -> Action {
-        self.actions.next().expect("as many answers as steps")
+        self.actions.next().expect("as many actions as steps")
     }
 }
 
@@ -45,25 +44,19 @@ fn play_script(maze: &str, actions: Vec<Action>) -> Played {
 }
 
 #[test]
-fn replays_the_recorded_vectors() {
-    let Some(shared) = shared() else {
-        return;
-    };
-    let path = shared.join("conformance/scripted.jsonl");
-    let text = fs::read_to_string(&path).expect("the vectors can be read");
-    let vectors: Vec<Value> = text
-        .lines()
-        .map(|line| serde_json::from_str(line).expect("a vector a line"))
-        .collect();
-    assert_eq!(vectors.len(), 96);
-    vectors.iter().for_each(check_vector);
+#[cfg_attr(
+    not(shared_material),
+    ignore = "needs shared material: set WASMOUSE_SHARED"
+)]
+fn replays_the_recorded_matches() {
+    recorded().iter().for_each(check_recorded);
 }
 
-fn check_vector(vector: &Value) {
-    let name = &vector["name"];
-    let steps = vector["steps"].as_array().expect("a list of steps");
+fn check_recorded(recorded: &Value) {
+    let name = &recorded["name"];
+    let steps = recorded["steps"].as_array().expect("a list of steps");
     let actions = steps.iter().map(|step| action(&step[7])).collect();
-    let played = play_script(vector["maze"].as_str().expect("a maze"), actions);
+    let played = play_script(recorded["maze"].as_str().expect("a maze"), actions);
     assert_eq!(played.stops.len(), steps.len(), "{name}");
     for (index, (stop, step)) in played.stops.iter().zip(steps).enumerate() {
         let Sensors { left, front, right } = stop.sensors;
@@ -73,8 +66,8 @@ fn check_vector(vector: &Value) {
         assert_eq!(&state, step, "{name}, step {index}");
     }
     let raced = played.stops.iter().any(|it| it.run == 2);
-    // A robot that has used up the budget in run 1 is put back to the start by the
-    // tester, which then finds that no call is left for run 2.
+    // When the exploration run has used up the budget, the tester still puts the robot back to
+    // the start, and then finds that no step is left for the speed run.
     let start = Pose::at_start(Cell::new(0, 0));
     let end = if raced { played.end } else { start };
     let mut run_steps = Vec::new();
@@ -95,22 +88,22 @@ fn check_vector(vector: &Value) {
         ("resets_in_run_2", json!(played.resets_in_run_2)),
     ];
     for (field, value) in expected {
-        assert_eq!(value, vector[field], "{name}, {field}");
+        assert_eq!(value, recorded[field], "{name}, {field}");
     }
 }
 
 fn action(value: &Value) -> Action {
-    if value == "reset" {
-        return Action::Reset;
+    match conformance::recorded_action(value) {
+        game::Action::Reset => Action::Reset,
+        game::Action::Move { turn, advance } => {
+            let turn = match turn {
+                maze::Turn::Left => Turn::Left,
+                maze::Turn::Straight => Turn::Straight,
+                maze::Turn::Right => Turn::Right,
+            };
+            Action::drive(turn, advance)
+        }
     }
-    let turn = match value[0].as_i64() {
-        Some(-90) => Turn::Left,
-        Some(0) => Turn::Straight,
-        Some(90) => Turn::Right,
-        other => panic!("the rotation {other:?}"),
-    };
-    let advance = value[1].as_i64().expect("a movement");
-    Action::drive(turn, advance.try_into().expect("a movement in -128..=127"))
 }
 
 fn heading_name(heading: Heading) -> &'static str {
@@ -122,7 +115,7 @@ fn heading_name(heading: Heading) -> &'static str {
     }
 }
 
-/// Walks at random, with a nonsense answer now and then.
+/// Moves at random, sometimes against the rules.
 struct Erratic {
     random: Random,
 }
@@ -149,34 +142,29 @@ impl Robot for Erratic {
 
 #[test]
 fn agrees_with_the_simulation() {
-    let spec: GenSpec = "gen:tree,loops=40:12:1..=40"
-        .parse()
-        .expect("a specification");
     let mut finished = 0;
-    for (name, maze) in spec.expand() {
-        for rules in Ruleset::all() {
+    for (name, maze) in generated_mazes("gen:tree,loops=40:12:1..=40") {
+        let text = format::print(&maze, Format::Udacity).expect("a contest maze");
+        for rules in Ruleset::all().map(|it| it.game) {
             for seed in 0..5 {
-                let options = options(&rules, seed);
-                let text = format::print(&maze, Format::Udacity).expect("a contest maze");
-                let played = testing::play::<Erratic>(&text, &options);
+                let played = testing::play::<Erratic>(&text, &options(&rules, seed));
                 finished += u32::from(played.finished);
-                let mut trace = Trace::default();
-                let simulation = Simulation::new(&maze, &rules, &mut trace);
-                check_against(simulation, &played, &format!("{name}, seed {seed}"));
+                let simulation = Simulation::new(&maze, &rules);
+                trace_of(simulation, &played, &format!("{name}, seed {seed}"));
             }
         }
     }
     assert!(finished > 20, "only {finished} finished: a weak test");
 }
 
-/// Native options for a ruleset.
-pub fn options(rules: &Ruleset, seed: u64) -> PlayOptions {
+/// Native options for these rules.
+pub fn options(rules: &GameRules, seed: u64) -> PlayOptions {
     PlayOptions {
         seed,
         budget: rules.budget,
         budget_scope: match rules.budget_scope {
-            sim::BudgetScope::BothRuns => wasmouse_sdk::BudgetScope::BothRuns,
-            sim::BudgetScope::EachRun => wasmouse_sdk::BudgetScope::EachRun,
+            game::BudgetScope::BothRuns => wasmouse_sdk::BudgetScope::BothRuns,
+            game::BudgetScope::EachRun => wasmouse_sdk::BudgetScope::EachRun,
         },
         longest_move: rules.longest_move.into(),
         exploration_divisor: rules.exploration_divisor,
@@ -184,11 +172,12 @@ pub fn options(rules: &Ruleset, seed: u64) -> PlayOptions {
     }
 }
 
-/// Feeds the answers of a native match to the host's simulation and requires the
-/// same readings, counts and end.
-pub fn check_against(mut simulation: Simulation<'_>, played: &Played, name: &str) {
+/// Feeds the actions of a native match to the host's simulation, requires the same readings,
+/// counts and end, and returns the trace.
+pub fn trace_of(mut simulation: Simulation<'_>, played: &Played, name: &str) -> Trace {
+    let mut trace = Trace::default();
     for stop in &played.stops {
-        assert_eq!(simulation.end(), None, "{name}");
+        assert_eq!(simulation.verdict(), None, "{name}");
         let (cell, sensors) = (simulation.cell(), simulation.sense());
         assert_eq!(stop.run, simulation.run().number(), "{name}");
         assert_eq!(
@@ -204,7 +193,7 @@ pub fn check_against(mut simulation: Simulation<'_>, played: &Played, name: &str
         let read = [sensors.left, sensors.front, sensors.right].map(u32::from);
         let Sensors { left, front, right } = stop.sensors;
         assert_eq!([left, front, right], read, "{name}");
-        simulation.apply(host_action(stop.action));
+        trace.apply(&mut simulation, host_action(stop.action));
     }
     let counts = simulation.counts();
     assert_eq!(
@@ -222,27 +211,27 @@ pub fn check_against(mut simulation: Simulation<'_>, played: &Played, name: &str
         ],
         "{name}"
     );
-    match simulation.end() {
-        Some(sim::End::Finished(score)) => {
+    match simulation.verdict() {
+        Some(Verdict::Finished { score }) => {
             let thousandths = Some(score.thousandths());
             assert_eq!(played.score.map(Score::thousandths), thousandths, "{name}");
         }
-        Some(sim::End::BudgetUsedUp { goal_reached }) => {
+        Some(Verdict::BudgetUsedUp { goal_reached }) => {
             assert_eq!(
                 (played.finished, played.goal_seen),
                 (false, goal_reached),
                 "{name}"
             );
         }
-        None => panic!("{name}: the arena ended too early"),
+        Some(Verdict::Fault { .. }) | None => panic!("{name}: the arena ended too early"),
     }
+    trace
 }
 
-fn host_action(action: Action) -> sim::Action {
-    use wasmouse::maze;
+fn host_action(action: Action) -> game::Action {
     match action {
-        Action::Reset => sim::Action::Reset,
-        Action::Move(it) => sim::Action::Move {
+        Action::Reset => game::Action::Reset,
+        Action::Move(it) => game::Action::Move {
             turn: match it.turn {
                 Turn::Left => maze::Turn::Left,
                 Turn::Straight => maze::Turn::Straight,

@@ -1,19 +1,23 @@
-//! Mazes, reports and vectors that do not belong to the repository.
+//! Mazes and recorded matches that do not belong to the repository.
+//!
+//! A test that needs them begins with
+//! `#[cfg_attr(not(shared_material), ignore = "needs shared material: set WASMOUSE_SHARED")]`.
 
-use std::env;
-use std::path::{Path, PathBuf};
+use std::fs;
+use std::path::PathBuf;
 
-/// The folder with the shared material: the environment variable
-/// `WASMOUSE_SHARED`, or `shared` beside the repository. `None`, with a line
-/// on standard error, where there is none.
-pub fn shared() -> Option<PathBuf> {
-    let folder = match env::var_os("WASMOUSE_SHARED") {
-        Some(folder) => PathBuf::from(folder),
-        None => Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared"),
-    };
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    eprintln!("skipped: no shared material at {}", folder.display());
-    None
+/// The folder with the shared material: `$WASMOUSE_SHARED`, or `shared` beside the repository.
+///
+/// # Panics
+///
+/// When there was none when the tests were built (`build.rs`).
+pub fn shared() -> PathBuf {
+    let folder = option_env!("SHARED_MATERIAL");
+    folder.expect("shared material: set WASMOUSE_SHARED").into()
+}
+
+/// A text file of the shared material.
+pub fn shared_text(file: &str) -> String {
+    let path = shared().join(file);
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }

@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use wasmouse_engine::admission::INTERFACE_VERSION;
 use wasmouse_tests::bindings;
 
 /// One row of the history in `wit/README.md`.
@@ -39,7 +40,7 @@ fn the_history_ends_with_the_file_as_it_is() {
     assert_eq!(
         last.sha256, sha256,
         "wit/robot.wit has changed: add a row to the history in wit/README.md, \
-         which says what else has to change with it"
+         which lists what else must change with it"
     );
 }
 
@@ -51,7 +52,7 @@ fn the_last_version_is_that_of_the_package() {
         read("wit/robot.wit").contains(&package),
         "no line `{package}`"
     );
-    assert_eq!(wasmouse::robot::INTERFACE_VERSION, last.version);
+    assert_eq!(INTERFACE_VERSION, last.version);
 }
 
 #[test]

@@ -1,190 +1,175 @@
-//! Robots in worker processes: the same results as in this process, whatever happens to
-//! the workers.
+//! Robots in worker processes: the same results as in this process, whatever happens to the
+//! workers.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::thread;
 use std::time::Duration;
 
-use wasmouse::contest::{Contest, ContestMaze, Entrant, Played};
-use wasmouse::maze::generate::GenSpec;
-use wasmouse::robot::bundled::find;
-use wasmouse::robot::componentize::componentize;
-use wasmouse::robot::{
-    Digest, Executable, Frame, Game, HostError, Isolation, PATIENCE, Recorder, Referee, Trust,
-    Verdict, Workers,
-};
-use wasmouse::sim::Ruleset;
+use wasmouse_core::game::SandboxLimits;
+use wasmouse_core::maze::Maze;
+use wasmouse_core::record::{MatchRecord, MatchSpec};
+use wasmouse_engine::admission::{Rejection, componentize};
+use wasmouse_engine::bundled::find;
+use wasmouse_engine::sandbox::{Executable, WorkerOptions};
+use wasmouse_engine::{Executor, Frame, InProcess, InfrastructureError, Limits, Sandboxed};
 
-use crate::binary;
-use crate::hostile::{Module, assert_unharmed, host};
+use crate::hostile::{Engine, Module, wasm};
+use crate::matches::{WORKER, generated_mazes, rules, sandboxed, spec};
 
-/// A referee whose workers are that program.
-fn referee(executable: Executable, patience: Duration) -> Referee {
-    let workers = Workers {
-        executable,
-        patience,
-        require_sandbox: false,
-    };
-    Referee::new(Ruleset::default(), 2, None, Isolation::Workers(workers))
-}
-
-fn real() -> Referee {
-    referee(Executable::at(binary::path()), PATIENCE)
-}
-
-/// A referee whose workers go wrong at certain seeds; see `tests/bin/faulty_worker.rs`.
-fn faulty(patience: Duration) -> Referee {
-    let program = Executable::at(env!("CARGO_BIN_EXE_faulty-worker"));
-    referee(program, patience)
-}
-
+/// Seeds before whose matches the worker fails; see `tests/bin/faulty_worker.rs`.
 const CRASH: u64 = 901;
 const CRASH_LATER: u64 = 902;
 const HANG: u64 = 903;
 const LEAVE: u64 = 904;
 
-/// The bundled robots in ten mazes, with those seeds.
-fn contest(referee: &Referee, trust: Trust, robots: &[&str], seeds: &[u64]) -> Contest {
-    let rules = Ruleset::default();
-    let entrants = robots.iter().map(|name| {
+fn workers() -> Sandboxed {
+    sandboxed(WORKER, None).expect("a worker starts")
+}
+
+fn in_process() -> InProcess {
+    InProcess::new(Limits::default(), 4, None).expect("address space")
+}
+
+/// The outcome of a match with that seed.
+type Outcome = (u64, Result<MatchRecord, InfrastructureError>);
+
+/// Plays the bundled robots in these mazes with these seeds, each robot on a thread of its own.
+fn play(
+    executor: &dyn Executor,
+    mazes: &[Arc<Maze>],
+    robots: &[&str],
+    seeds: &[u64],
+) -> Vec<Outcome> {
+    let play = |name: &str| {
         let component = find(name).expect("a bundled robot").component;
-        let admission = referee.admit(component, trust).expect("the host works");
-        Entrant {
-            name: (*name).to_owned(),
-            digest: Digest::of(component),
-            setting: 0,
-            admission: admission.map(Arc::new).map_err(Arc::new),
-        }
-    });
-    let mazes: GenSpec = "gen:braid:12:1..=10".parse().expect("a specification");
-    Contest {
-        entrants: entrants.collect(),
-        mazes: mazes
-            .expand()
-            .map(|(name, maze)| ContestMaze::new(name, maze, &rules))
-            .collect(),
-        seeds: seeds.to_vec(),
-        rules,
-    }
+        let robot = executor.admit(component).expect("the host works");
+        let robot = robot.expect("a bundled robot");
+        let rules = rules(SandboxLimits::default());
+        let specs = mazes.iter().flat_map(|maze| {
+            let digest = robot.digest();
+            let spec = |seed: &u64| spec(&rules, digest, maze, (0, *seed));
+            seeds.iter().map(spec).collect::<Vec<_>>()
+        });
+        let specs: Vec<MatchSpec> = specs.collect();
+        let mut outcomes = Vec::new();
+        let flow = executor.execute(&robot, &specs, &mut |spec, played| {
+            let record = played.map(|it| {
+                assert_eq!(it.record.key, spec.key);
+                assert_eq!(it.record.transcript, it.transcript.digest());
+                it.record
+            });
+            outcomes.push((spec.key.seed, record));
+            ControlFlow::Continue(())
+        });
+        assert_eq!(
+            (flow, outcomes.len()),
+            (ControlFlow::Continue(()), specs.len())
+        );
+        outcomes
+    };
+    let play = &play;
+    thread::scope(|scope| {
+        let robots = robots.iter();
+        let threads: Vec<_> = robots.map(|it| scope.spawn(move || play(it))).collect();
+        let outcomes = threads.into_iter().map(|it| it.join().expect("outcomes"));
+        outcomes.flatten().collect()
+    })
 }
 
-fn play(contest: &Contest, referee: &Referee, threads: usize) -> Played {
-    contest
-        .run(referee, threads, &AtomicBool::new(false), &|| ())
-        .expect("there are threads")
-}
-
-/// The results of robots that run in this process.
-fn expected(robots: &[&str], seeds: &[u64]) -> Played {
-    let referee = Referee::new(Ruleset::default(), 1, None, Isolation::None);
-    let contest = contest(&referee, Trust::Trusted, robots, seeds);
-    play(&contest, &referee, 1)
+fn mazes() -> Vec<Arc<Maze>> {
+    let mazes = generated_mazes("gen:braid:12:1..=10");
+    mazes.map(|(_, maze)| maze).collect()
 }
 
 #[test]
 fn workers_give_the_same_results() {
     let robots = ["flood", "random", "minnett", "dfs"];
-    let expected = expected(&robots, &[0, 1]);
-    let referee = real();
-    let contest = contest(&referee, Trust::Stranger, &robots, &[0, 1]);
-    for threads in [1, 3] {
-        let played = play(&contest, &referee, threads);
-        assert_eq!(played.results, expected.results, "{threads} threads");
-        assert!(played.failed.is_empty());
-    }
+    let here = play(&in_process(), &mazes(), &robots, &[0, 1]);
+    let there = play(&workers(), &mazes(), &robots, &[0, 1]);
+    assert_eq!(records(here, None), records(there, None));
 }
 
-/// Plays with workers that go wrong at one of the seeds, and requires that everything
-/// else is as ever.
+/// The records of all matches but those with that seed.
+fn records(outcomes: Vec<Outcome>, without: Option<u64>) -> Vec<MatchRecord> {
+    let others = outcomes.into_iter().filter(|it| Some(it.0) != without);
+    others.map(|it| it.1.expect("it was played")).collect()
+}
+
+/// Plays with workers that fail at one of the seeds, requires that all other matches are not
+/// affected, and returns the outcomes of that seed.
 #[track_caller]
-fn check_rest(seed: u64, patience: Duration, robots: &[&str]) -> Played {
-    let expected = expected(robots, &[0, seed, 1]);
-    let referee = faulty(patience);
-    let contest = contest(&referee, Trust::Stranger, robots, &[0, seed, 1]);
-    let played = play(&contest, &referee, 2);
-    let others = |played: &Played| {
-        let results = played.results.iter();
-        let others: Vec<_> = results.filter(|it| it.seed != seed).cloned().collect();
-        others
-    };
-    assert_eq!(others(&played), others(&expected));
-    assert_eq!(
-        played.results.len() + played.failed.len(),
-        contest.matches()
-    );
-    played
+fn outcomes_of(seed: u64, robots: &[&str]) -> Vec<Result<MatchRecord, InfrastructureError>> {
+    let expected = play(&in_process(), &mazes(), robots, &[0, 1]);
+    let played = play(&workers(), &mazes(), robots, &[0, seed, 1]);
+    let (of_seed, others): (Vec<Outcome>, Vec<Outcome>) =
+        played.into_iter().partition(|it| it.0 == seed);
+    assert_eq!(records(others, None), records(expected, None));
+    assert_eq!(of_seed.len(), 10 * robots.len());
+    of_seed.into_iter().map(|it| it.1).collect()
 }
 
 #[test]
-fn a_robot_is_blamed_for_a_crash_that_repeats_alone() {
-    let played = check_rest(CRASH, PATIENCE, &["flood", "dfs"]);
-    let crashed = played.results.iter().filter(|it| it.seed == CRASH);
-    let mut count = 0;
-    for result in crashed {
-        count += 1;
-        let Verdict::Fault(fault) = &result.outcome.verdict else {
-            panic!("{:?}", result.outcome.verdict);
-        };
+fn a_crash_that_repeats_alone_is_the_robots_fault() {
+    for outcome in outcomes_of(CRASH, &["flood", "dfs"]) {
+        let verdict = outcome.expect("a verdict").verdict;
+        let fault = verdict.fault().expect("a fault");
         assert_eq!(fault.kind.name(), "crash");
         assert!(fault.to_string().contains("SIGABRT"), "{fault}");
     }
-    assert_eq!(count, 20);
 }
 
 #[test]
 fn a_crash_that_does_not_repeat_alone_is_nobodys_fault() {
-    let played = check_rest(CRASH_LATER, PATIENCE, &["flood", "dfs"]);
-    assert_eq!(
-        played.results,
-        expected(&["flood", "dfs"], &[0, CRASH_LATER, 1]).results
-    );
+    let outcomes = outcomes_of(CRASH_LATER, &["flood"]);
+    let expected = play(&in_process(), &mazes(), &["flood"], &[CRASH_LATER]);
+    let outcomes = outcomes.into_iter().map(|it| (CRASH_LATER, it)).collect();
+    assert_eq!(records(outcomes, None), records(expected, None));
 }
 
 #[test]
-fn a_worker_that_stands_still_is_a_failure_of_the_host() {
-    // One robot and few matches: each waits for the clock twice.
-    let referee = faulty(Duration::from_secs(1));
-    let mut contest = contest(&referee, Trust::Stranger, &["flood"], &[0, HANG, 1]);
-    contest.mazes.truncate(1);
-    let played = play(&contest, &referee, 2);
-    assert_eq!(played.results.len(), 2);
-    let [failed] = &played.failed[..] else {
-        panic!("{:?}", played.failed);
-    };
-    assert_eq!(failed.seed, HANG);
-    assert!(
-        matches!(failed.error, HostError::Stalled),
-        "{}",
-        failed.error
-    );
-}
-
-#[test]
-fn a_worker_that_leaves_is_a_failure_of_the_host() {
-    let played = check_rest(LEAVE, PATIENCE, &["flood"]);
-    assert_eq!(played.failed.len(), 10);
-    let error = played.failed[0].error.to_string();
-    assert!(error.contains("exit status: 0"), "{error}");
-}
-
-/// Another version of wasmouse, or no wasmouse at all, is not believed.
-#[test]
-fn a_worker_of_another_build_is_refused() {
-    for (program, expected) in [
-        ("/bin/cat", "the worker that should play failed"),
-        ("/bin/false", "the worker that should play failed"),
-        ("/nonexistent", "No such file"),
-    ] {
-        let referee = referee(Executable::at(program), PATIENCE);
-        let flood = find("flood").expect("a bundled robot").component;
-        match referee.admit(flood, Trust::Stranger) {
-            Err(error) => assert!(error.to_string().contains(expected), "{error}"),
-            Ok(_) => panic!("{program} is a worker"),
-        }
+fn a_worker_that_exits_is_an_infrastructure_error() {
+    for outcome in outcomes_of(LEAVE, &["flood"]) {
+        let error = outcome.expect_err("it was not played").to_string();
+        assert_eq!(error, "run worker failed: exit status: 0");
     }
 }
 
-/// Killed by somebody else before it has said anything: that is no reason to end.
+#[test]
+fn a_worker_that_hangs_is_an_infrastructure_error() {
+    let options = WorkerOptions {
+        executable: Executable::at(WORKER),
+        patience: Duration::from_secs(1),
+        require_sandbox: false,
+    };
+    let rules = rules(SandboxLimits::default());
+    let executor = Sandboxed::new(rules, Limits::default(), options, None);
+    let executor = executor.expect("a worker starts");
+    // One robot and few matches: each waits for the deadline twice.
+    let played = play(&executor, &mazes()[..1], &["flood"], &[0, HANG, 1]);
+    let error = played[1].1.as_ref().expect_err("it was not played");
+    assert!(
+        matches!(error, InfrastructureError::Stalled { seconds: 1 }),
+        "{error}"
+    );
+    assert_eq!(records(played, Some(HANG)).len(), 2);
+}
+
+/// Another version of wasmouse, or another program, is not trusted.
+#[cfg(unix)]
+#[test]
+fn a_worker_of_another_build_is_not_used() {
+    for (program, expected) in [
+        ("/bin/cat", "run worker failed: "),
+        ("/bin/false", "run worker failed: "),
+        ("/nonexistent", "run worker failed: No such file"),
+    ] {
+        let error = sandboxed(program, None).err().expect("not a worker");
+        assert!(error.to_string().starts_with(expected), "{error}");
+    }
+}
+
+/// Killed by somebody else before it has sent anything.
 #[cfg(unix)]
 #[test]
 fn a_worker_that_is_killed_as_it_starts_is_started_again() {
@@ -193,26 +178,20 @@ fn a_worker_that_is_killed_as_it_starts_is_started_again() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let (script, mark) = (folder.path().join("worker"), folder.path().join("killed"));
     let text = format!(
-        "#!/bin/sh\nif [ ! -e '{mark}' ]; then : > '{mark}'; kill -9 $$; fi\nexec '{}' \"$@\"\n",
-        binary::path().display(),
+        "#!/bin/sh\nif [ ! -e '{mark}' ]; then : > '{mark}'; kill -9 $$; fi\n\
+         exec '{WORKER}' \"$@\"\n",
         mark = mark.display(),
     );
     std::fs::write(&script, text).expect("a file");
-    std::fs::set_permissions(&script, std::fs::Permissions::from_mode(0o755))
-        .expect("its own file");
-    let referee = referee(Executable::at(&script), PATIENCE);
-    let flood = find("flood").expect("a bundled robot").component;
-    let player = referee
-        .admit(flood, Trust::Stranger)
-        .expect("the host works");
-    assert!(player.is_ok(), "it is a robot");
+    let executable = std::fs::Permissions::from_mode(0o755);
+    std::fs::set_permissions(&script, executable).expect("its own file");
+    sandboxed(&script, None).expect("the second worker works");
     assert!(mark.exists(), "one was killed");
 }
 
 #[test]
-fn refusals_are_the_same_in_workers() {
-    let referee = real();
-    let inside = host(Ruleset::default().limits);
+fn rejections_are_the_same_in_workers() {
+    let (here, there) = (in_process(), workers());
     let foreign = Module {
         imports: r#"(import "env" "f" (func))"#,
         ..Module::default()
@@ -223,54 +202,44 @@ fn refusals_are_the_same_in_workers() {
         b"\x7fELF rest",
         b"\0asm\x0d\0\x01\0\xff",
         &foreign.core(),
-        &crate::hostile::wasm("(component)"),
+        &wasm("(component)"),
     ];
     for file in files {
-        let there = referee
-            .admit(file, Trust::Stranger)
-            .expect("the host works");
-        let (Err(here), Err(there)) = (inside.admit(file), there) else {
-            panic!("admitted: {file:?}");
+        let rejection = |executor: &dyn Executor| {
+            let admission = executor.admit(file).expect("the host works");
+            let inspection = executor.inspect(file).expect("the host works");
+            let rejections = [admission.err(), inspection.rejection];
+            rejections.map(|it| {
+                let it: Rejection = it.expect("it is not a robot");
+                (it.name().to_owned(), it.to_string(), it.hint().to_owned())
+            })
         };
-        let all = |it: &wasmouse::robot::Refusal| {
-            (it.name().to_owned(), it.to_string(), it.hint().to_owned())
-        };
-        assert_eq!(all(&there), all(&here));
+        assert_eq!(rejection(&there), rejection(&here));
     }
-    assert_unharmed(&inside);
 }
 
-/// Where a robot fails; the same in workers as in this process.
-fn explained(bytes: &[u8]) -> Vec<Frame> {
-    let mazes: GenSpec = "gen:braid:12:1".parse().expect("a specification");
-    let (_, maze) = mazes.expand().next().expect("one maze");
-    let rules = Ruleset::default();
-    let game = Game {
-        maze: &maze,
-        rules: &rules,
-        seed: 0,
-        setting: 0,
-    };
-    let referee = real();
-    let [here, there] = [Trust::Trusted, Trust::Stranger].map(|trust| {
-        let player = referee.admit(bytes, trust).expect("the host works");
-        let player = player.unwrap_or_else(|refusal| panic!("refused: {refusal}"));
-        let mut recorder = Recorder::default();
-        let outcome = referee.record(&player, &game, &mut recorder);
-        let Verdict::Fault(fault) = outcome.expect("the host works").verdict else {
-            panic!("no fault");
-        };
-        let frames = referee.explain(&player, bytes, &game, &fault);
+/// The backtrace of a robot that fails, the same in workers as in this process.
+fn backtrace(bytes: &[u8]) -> Vec<Frame> {
+    let (_, maze) = generated_mazes("gen:braid:12:1").next().expect("one maze");
+    let rules = rules(SandboxLimits::default());
+    let executors: [&dyn Executor; 2] = [&in_process(), &workers()];
+    let [here, there] = executors.map(|executor| {
+        let robot = executor.admit(bytes).expect("the host works");
+        let robot = robot.unwrap_or_else(|rejection| panic!("rejected: {rejection}"));
+        let spec = spec(&rules, robot.digest(), &maze, (0, 0));
+        let played = executor.execute_with_details(&robot, &spec);
+        let verdict = played.expect("the host works").record.verdict;
+        let fault = verdict.fault().expect("a fault");
+        let frames = executor.backtrace(&robot, bytes, &spec, fault);
         frames.expect("the host works").expect("the same fault")
     });
     assert_eq!(here, there);
     there
 }
 
-/// Where a robot fails is told in names, in workers as in this process, and names of any
-/// length and kind are only text.
+/// Functions are named, and names of any length and kind are only text.
 #[test]
-fn faults_are_explained_by_the_calls_in_progress() {
+fn a_backtrace_names_the_functions() {
     let hostile = format!("{}\u{1b}[31m", "x".repeat(10_000));
     let robot = Module {
         rest: &format!(
@@ -281,16 +250,16 @@ fn faults_are_explained_by_the_calls_in_progress() {
         next: "call $outer i32.const 16",
         ..Module::default()
     };
-    let frames = explained(&robot.component());
+    let frames = backtrace(&robot.component());
     let functions: Vec<&str> = frames.iter().map(|it| it.function.as_str()).collect();
     assert_eq!(functions[0], "plan");
     assert_eq!(functions[1], "x".repeat(160));
     assert_eq!(functions.len(), 3, "{functions:?}");
 }
 
-/// With debug information also in source lines, whatever else that information says.
+/// With debug information also source lines, whatever else that information says.
 #[test]
-fn faults_are_explained_in_source_lines() {
+fn a_backtrace_has_source_lines() {
     let text = Module {
         rest: "(func $inner unreachable)",
         next: "call $inner i32.const 16",
@@ -298,7 +267,7 @@ fn faults_are_explained_in_source_lines() {
     };
     let module = text.core_with_lines("src/robot.wat");
     let robot = componentize(&module).expect("a robot");
-    let frames = explained(&robot);
+    let frames = backtrace(&robot);
     let line_of = |what: &str| text.wat().lines().position(|line| line.contains(what));
     for (frame, what) in frames.iter().zip(["unreachable", "call $inner"]) {
         let line = line_of(what).expect("it is in the text") + 1;
@@ -327,12 +296,9 @@ fn faults_are_explained_in_source_lines() {
             let mut broken = robot.clone();
             broken[at] = byte;
             // Where debug information ends, other sections may begin.
-            if host(Ruleset::default().limits).admit(&broken).is_ok() {
-                assert_eq!(
-                    explained(&broken).len(),
-                    frames.len(),
-                    "byte {at} is {byte}"
-                );
+            if Engine::new(Limits::default()).admit(&broken).is_ok() {
+                let found = backtrace(&broken).len();
+                assert_eq!(found, frames.len(), "byte {at} is {byte}");
                 tried += 1;
             }
         }

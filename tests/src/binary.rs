@@ -6,12 +6,12 @@ use std::process::{Command, ExitStatus, Stdio};
 /// The binary in the folder of this program, or above it when this is a test:
 /// `target/PROFILE/wasmouse`.
 ///
-/// The tests are a package of their own, so cargo does not say where it is, nor
-/// does it build it for `cargo test -p wasmouse-tests` alone.
+/// The tests are a package of their own, so cargo neither reports where it is nor
+/// builds it for `cargo test -p wasmouse-tests` alone.
 ///
 /// # Panics
 ///
-/// When it is not there.
+/// When there is none.
 pub fn path() -> PathBuf {
     let program = std::env::current_exe().expect("a running program has a path");
     let name = format!("wasmouse{}", std::env::consts::EXE_SUFFIX);
@@ -33,13 +33,13 @@ pub fn wasmouse() -> Command {
     Command::new(path())
 }
 
-/// What a call left behind.
+/// The result of a call.
 pub struct Ran {
     /// How it ended.
     pub status: ExitStatus,
-    /// What it printed.
+    /// What it wrote to stdout.
     pub stdout: String,
-    /// What it said.
+    /// What it wrote to stderr.
     pub stderr: String,
 }
 
@@ -65,7 +65,7 @@ pub fn ran(command: &mut Command) -> Ran {
     }
 }
 
-/// Runs a command that has to succeed and returns its standard output.
+/// Runs a command that must succeed and returns its standard output.
 ///
 /// # Panics
 ///

@@ -1,8 +1,8 @@
-//! Small files that take a compiler long or much memory: one function for each way.
+//! Small files that take a compiler much time or memory: one function for each kind.
 //!
-//! Core modules without the exports of a robot, and components without a controller:
-//! whoever reads them has to refuse them for their size, before it looks at names.
-//! The sizes that the measured times belong to stand beside each.
+//! Core modules without the exports of a robot, and components without a controller: they must be
+//! rejected for their size, before their names are checked. Sizes and measured times are in the
+//! documentation of each.
 
 use wasm_encoder::{
     BlockType, CodeSection, ConstExpr, ExportKind, ExportSection, Function, FunctionSection,
@@ -97,7 +97,7 @@ fn load(at: u32) -> [I<'static>; 2] {
     [I::LocalGet(0), I::I32Load(argument)]
 }
 
-/// Loops inside each other, each with a way back. 1,000: 7 KB, 3 s; 2,000: 25 s.
+/// Nested loops, each with a branch back. 1,000: 7 KB, 3 s; 2,000: 25 s.
 pub fn nested_loops(loops: u32) -> Vec<u8> {
     let mut body = vec![I::Loop(BlockType::Empty); count(loops)];
     for _ in 0..loops {
@@ -106,7 +106,7 @@ pub fn nested_loops(loops: u32) -> Vec<u8> {
     Parts::one(0, body)
 }
 
-/// Blocks inside each other.
+/// Nested blocks.
 pub fn nested_blocks(blocks: u32) -> Vec<u8> {
     let mut body = vec![I::Block(BlockType::Empty); count(blocks)];
     body.extend(vec![I::End; count(blocks)]);
@@ -144,13 +144,13 @@ pub fn branch_tables(tables: u32, targets: u32) -> Vec<u8> {
     Parts::one(1, body)
 }
 
-/// Ways out of one block, each with other values in the locals. 3,000 with 30
+/// Exits of one block, each with other values in the locals. 3,000 with 30
 /// locals: 800 KB, 12 s.
-pub fn ways_out(ways: u32, locals: u32) -> Vec<u8> {
+pub fn exits(exits: u32, locals: u32) -> Vec<u8> {
     let mut body = vec![I::Block(BlockType::Empty)];
-    for way in 0..ways {
+    for exit in 0..exits {
         for local in 0..locals {
-            body.extend(load(way * locals + local));
+            body.extend(load(exit * locals + local));
             body.push(I::LocalSet(1 + local));
         }
         body.extend([I::LocalGet(0), I::BrIf(0)]);
@@ -332,7 +332,7 @@ pub fn exponential(levels: u32) -> Vec<u8> {
     wat::parse_str(text).expect("written here")
 }
 
-/// Components inside each other.
+/// Nested components.
 pub fn nested_components(depth: u32) -> Vec<u8> {
     let mut bytes = Vec::new();
     for _ in 0..depth {

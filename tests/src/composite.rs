@@ -1,5 +1,5 @@
 //! [`Composite`]: robots as components written out in full, for what a core module
-//! alone cannot say: more modules, inner components, canonical options.
+//! alone cannot express: more modules, inner components, canonical options.
 
 use crate::module::{Module, versioned, wasm};
 
@@ -7,7 +7,7 @@ use crate::module::{Module, versioned, wasm};
 /// export of that name of the core instance `$libc`, and the module imports it with [`Composite::MEMORY`].
 #[derive(Clone, Copy, Debug)]
 pub struct Composite<'a> {
-    /// The module that answers.
+    /// The module of the robot.
     pub robot: Module<'a>,
     /// Fields before it: modules, instances, inner components.
     pub before: &'a str,

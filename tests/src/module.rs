@@ -3,8 +3,7 @@
 //! Tests and the hostile corpus state the part of a robot that matters to them; the
 //! rest is a harmless robot that drives on.
 
-use wasmouse::robot::INTERFACE_VERSION;
-use wasmouse::robot::componentize::componentize;
+use wasmouse_engine::admission::{INTERFACE_VERSION, componentize};
 
 /// Where [`Module`] keeps the action "straight, 1 cell" in its memory.
 pub const DRIVE_ON: &str = "i32.const 16";
@@ -15,11 +14,11 @@ pub const DRIVE_ON: &str = "i32.const 16";
 pub struct Module<'a> {
     /// Body of `start`.
     pub start: &'a str,
-    /// Body of `next-move`; leaves a pointer to the answer.
+    /// Body of `next-move`; leaves a pointer to the action.
     pub next: &'a str,
     /// Imports of the module, which come first.
     pub imports: &'a str,
-    /// The memory, which has to be exported under the name `memory`.
+    /// The memory, which must be exported under the name `memory`.
     pub memory: &'a str,
     /// More fields of the module.
     pub rest: &'a str,

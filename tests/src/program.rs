@@ -1,5 +1,5 @@
 //! [`Program`]: the `wasmouse` binary under a path of its own, so that all its processes
-//! can be told from all others, whoever their parents are.
+//! can be distinguished from all others, whoever their parents are.
 
 use std::fs;
 use std::io;
@@ -63,7 +63,7 @@ impl Program {
             .collect()
     }
 
-    /// Waits until none of its processes is there, ends those that stay, and counts them.
+    /// Waits until all its processes have ended, kills those that stay, and counts them.
     pub fn left_behind(&self) -> usize {
         /// How long workers may outlive their supervisor.
         const GRACE: Duration = Duration::from_secs(2);
@@ -78,7 +78,7 @@ impl Program {
         }
     }
 
-    /// Ends all its processes.
+    /// Kills all its processes.
     pub fn kill_all(&self) {
         for process in self.processes() {
             signal(process, "KILL");

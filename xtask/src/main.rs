@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use xtask::{bindings, corpus, fuzz, repository, robots, verify};
+use xtask::{bindings, corpus, fuzz, reference, repository, robots, verify};
 
 /// Automation for the wasmouse repository.
 #[derive(Parser)]
@@ -16,10 +16,10 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Do what CI does: format, lints, docs, build, robots, tests, licences.
+    /// Run everything that CI runs: formatting, lints, docs, build, robots, tests, licences.
     Test {
-        /// Also what takes minutes each: faults 200 times over, every robot in 2,000
-        /// mazes, and the hostile corpus's slow cases.
+        /// Also run the tests that take minutes each: faults 200 times over, every robot in
+        /// 2,000 mazes, and the slow cases of the hostile corpus.
         #[arg(long)]
         long: bool,
     },
@@ -27,14 +27,21 @@ enum Command {
     Bindings,
     /// Build the bundled robots into example-robots/prebuilt.
     Robots {
-        /// Build nothing: say which prebuilt robots are stale.
+        /// Build nothing; list which prebuilt robots are stale.
         #[arg(long)]
         check: bool,
     },
-    /// Play the hostile corpus and print the outcome of each case; see `--help`.
+    /// Play the hostile corpus and print the verdict of each case; see `--help`.
     #[command(disable_help_flag = true)]
     Corpus {
         /// Arguments for the program `corpus`.
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<OsString>,
+    },
+    /// Play the bundled robots and write docs/REFERENCE.md; see `--help`.
+    #[command(disable_help_flag = true)]
+    Reference {
+        /// Arguments for the program `reference`.
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<OsString>,
     },
@@ -56,6 +63,7 @@ fn main() -> ExitCode {
         Command::Robots { check: false } => robots::rebuild(&root),
         Command::Robots { check: true } => robots::check(&root),
         Command::Corpus { arguments } => corpus::run(&root, &arguments),
+        Command::Reference { arguments } => reference::run(&root, &arguments),
         Command::Fuzz { target, minutes } => fuzz::run(&root, target.as_deref(), minutes),
     };
     match outcome {

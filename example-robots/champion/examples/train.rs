@@ -263,7 +263,7 @@ fn tune(Tuning { set, start }: &Tuning) -> [Parameters; KINDS] {
     best
 }
 
-/// Score minus floor, in steps.
+/// Regret: score minus oracle score, in steps.
 fn mean_regret(mazes: &[String], parameters: &[Parameters; KINDS]) -> f64 {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let part = mazes.len().div_ceil(threads);
@@ -288,11 +288,11 @@ fn mean_regret(mazes: &[String], parameters: &[Parameters; KINDS]) -> f64 {
 fn regret(maze: &str) -> i64 {
     let played = testing::play::<Tuned>(maze, &PlayOptions::default());
     let score = played.score.expect("the champion finishes");
-    score.thousandths() as i64 - floor(maze).thousandths() as i64
+    score.thousandths() as i64 - oracle_score(maze).thousandths() as i64
 }
 
 /// The score of a robot that knows the maze.
-fn floor(maze: &str) -> Score {
+fn oracle_score(maze: &str) -> Score {
     let passages = passages(maze);
     let goal = CellSet::from(Area::center(passages.dimension()));
     let mut search = Search::new(passages.dimension(), 3);

@@ -55,8 +55,8 @@
 //! does, variant 0 finishes all and beats that score in 84.9 %, by 2.63; in the 9,851 in which
 //! the safeguard does not take over, in 85.4 %, by 2.67. Mazes of the kind `division`,
 //! generated as his report describes, have longer paths to the goal (16.1 steps at 16 x 16
-//! instead of 10.7): 76.6 % of 500, by 2.07. `docs/REFERENCE.md` has the results in the mazes
-//! of the study.
+//! instead of 10.7): 76.6 % of 500, by 2.07. `docs/REFERENCE.md` has the results in
+//! official, generated and competition mazes.
 
 mod knowledge;
 mod loops;

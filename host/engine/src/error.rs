@@ -17,7 +17,7 @@ pub enum InfrastructureError {
     #[error("failed to call the robot: {0}")]
     Call(String),
     /// A match took so long on the wall clock that the host must have stalled.
-    #[error("a match did not end within {seconds} s on the wall clock")]
+    #[error("a match did not end within {seconds} s of wall time")]
     Stalled {
         /// The limit.
         seconds: u64,

@@ -49,7 +49,7 @@ pub struct AdmissionLimits {
     pub memories_max: u32,
     /// Tables in one component. Default 16.
     pub tables_max: u32,
-    /// Components inside each other. Stops deep nesting, for which each compiler
+    /// Nested components. Stops deep nesting, for which each compiler
     /// stage keeps its state. Default 100.
     pub component_depth_max: u32,
     /// Items of components in the file: types and what they declare, imports,
@@ -96,9 +96,9 @@ pub struct AdmissionLimits {
     /// Code of one function, in bytes. Stops the parts of a compiler that look at
     /// a whole function. Default 1 MiB.
     pub function_bytes_max: u32,
-    /// Blocks, loops and ifs inside each other. Default 4,000.
+    /// Nested blocks, loops and ifs. Default 4,000.
     pub nesting_max: u32,
-    /// Loops inside each other. Stops the compile time that grows with the cube of
+    /// Nested loops. Stops the compile time that grows with the cube of
     /// it: 2,000 loops in 14 KB take 25 s. Default 64.
     pub loop_nesting_max: u32,
     /// Values on the operand stack of one function. Stops live values whose

@@ -19,7 +19,7 @@ use crate::report::escape::for_terminal;
 const ROBOTS_MAX: usize = 5;
 
 /// Prints to stderr where robots were in their code when they first failed. `specs` are those of
-/// the plan's entrants, in order. A backtrace is a courtesy: one that cannot be had is skipped.
+/// the plan's entrants, in order. Backtraces are optional: one that cannot be made is skipped.
 pub fn print(
     plan: &Plan,
     players: &[Player],

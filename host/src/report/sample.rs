@@ -122,6 +122,7 @@ pub(super) fn results() -> Results {
             matches_planned: 800,
         },
         summary: Summary {
+            matches: matches.len() as u64,
             complete: false,
             mazes: mazes.into(),
             failures,

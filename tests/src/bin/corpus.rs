@@ -1,5 +1,5 @@
-//! `corpus`: plays the hostile corpus through the `wasmouse` binary and prints a table,
-//! or writes the files for another host.
+//! `corpus`: plays the hostile corpus through the `wasmouse` binary and prints a table, or
+//! writes the files for another host.
 
 use std::fs;
 use std::io;
@@ -10,29 +10,28 @@ use std::time::{Duration, Instant};
 
 use clap::Parser;
 use serde_json::{Value, json};
-use wasmouse::report::visible;
 use wasmouse_tests::binary;
 use wasmouse_tests::corpus::{Bench, Case, Judgement, Mode, cases};
 
-/// Play the hostile corpus and print what came of each case.
+/// Play the hostile corpus and print the outcome of each case.
 #[derive(Parser)]
 struct Cli {
     /// Only cases with this number, or with this in their name
     #[arg(value_name = "CASE")]
     only: Vec<String>,
-    /// Also the cases that take long, up to minutes each
+    /// Also play the cases that take up to minutes each
     #[arg(long)]
     long: bool,
-    /// Also the reason of each refusal and fault
+    /// Also print the reason of each rejection and fault
     #[arg(long)]
     reasons: bool,
-    /// Only this mode: `isolated` or `trusted`
+    /// Only this mode: `sandboxed` or `trusted`
     #[arg(long, value_name = "MODE", value_parser = mode)]
     mode: Option<Mode>,
     /// Write the files and `index.json` to this folder and play nothing
     #[arg(long, value_name = "FOLDER")]
     write: Option<PathBuf>,
-    /// The program; by default the one beside this program
+    /// The program to test [default: the one beside this program]
     #[arg(long, value_name = "FILE")]
     wasmouse: Option<PathBuf>,
 }
@@ -41,7 +40,7 @@ fn mode(name: &str) -> Result<Mode, String> {
     Mode::ALL
         .into_iter()
         .find(|mode| mode.name() == name)
-        .ok_or_else(|| "there are `isolated` and `trusted`".to_owned())
+        .ok_or_else(|| "expected `sandboxed` or `trusted`".to_owned())
 }
 
 fn main() -> ExitCode {
@@ -51,7 +50,7 @@ fn main() -> ExitCode {
         .filter(|case| is_meant(&cli, case))
         .collect();
     if cases.is_empty() {
-        eprintln!("error: there is no such case; --long adds some");
+        eprintln!("error: no such case (--long adds some)");
         return ExitCode::FAILURE;
     }
     let outcome = match &cli.write {
@@ -77,7 +76,7 @@ fn is_meant(cli: &Cli, case: &Case) -> bool {
     is_played && (cli.only.is_empty() || cli.only.iter().any(fits))
 }
 
-/// Plays the cases, in both modes at the same time, and says whether all is well.
+/// Plays the cases, in both modes at the same time; `true` when all have passed.
 fn play(cli: &Cli, cases: &[Case]) -> io::Result<bool> {
     let is_meant = |mode: &Mode| cli.mode.is_none_or(|only| only == *mode);
     println!(
@@ -99,8 +98,8 @@ fn play(cli: &Cli, cases: &[Case]) -> io::Result<bool> {
     })?;
     for total in &totals {
         println!(
-            "{}: {} played in {:.0} s, {} not as expected; at most {} MiB in the process that \
-             is started, {} MiB in all",
+            "{}: {} cases in {:.0} s, {} failed; peak memory {} MiB in the process that was \
+             started, {} MiB in all processes",
             total.mode.name(),
             total.count,
             total.time.as_secs_f64(),
@@ -113,7 +112,7 @@ fn play(cli: &Cli, cases: &[Case]) -> io::Result<bool> {
     Ok(totals.iter().all(|total| total.bad == 0))
 }
 
-/// What came of all cases in a mode.
+/// The outcomes of all cases in a mode.
 struct Total {
     mode: Mode,
     count: u32,
@@ -161,13 +160,13 @@ fn row(cli: &Cli, case: &Case, mode: Mode, judgement: &Judgement) -> String {
         if judgement.is_well() { "ok" } else { "NO" },
     );
     if cli.reasons && !judgement.reason.is_empty() {
-        row += &format!("\n       {}", visible(&judgement.reason));
+        row += &format!("\n       {}", judgement.reason.escape_debug());
     }
     for problem in &judgement.problems {
         row += &format!(
             "\n       expected {}; {}",
             judgement.expected,
-            visible(problem)
+            problem.escape_debug()
         );
     }
     row

@@ -1,23 +1,23 @@
-//! ABI: answers, pointers, text and calls that break the canonical ABI.
+//! ABI: actions, pointers, text and calls that break the canonical ABI.
 
 use serde_json::Value;
 
 use super::binary::escaped;
-use super::case::{Case, OF_A_STEP, fault, harmless, refused};
+use super::case::{Case, fault, harmless, out_of_step_fuel, rejected, unreachable, violation};
 use crate::composite::Composite;
 use crate::module::{DRIVE_ON, IMPORT_LOG, Module};
 
 /// The cases 35 to 51, except those with an inner component.
 pub fn cases() -> Vec<Case> {
     [
-        answers(),
+        actions(),
         pointers(),
         panics(),
         text(),
         floods(),
         forged(),
         encodings(),
-        after_the_answer(),
+        after_the_action(),
         types(),
     ]
     .into_iter()
@@ -25,22 +25,11 @@ pub fn cases() -> Vec<Case> {
     .collect()
 }
 
-/// How a call is told that hands over more than the allowance.
-const TOO_MUCH: &str = "handed the host more than 65536 bytes in one call";
+/// The fault of a call that passes more than the allowance.
+const TOO_MUCH: &str = "passed more than 65536 bytes to the host in one call";
 
-/// A fault that the canonical ABI tells in these words.
-fn broken(detail: &str) -> Value {
-    fault("interface", &format!("broke the interface: {detail}"))
-}
-
-/// A robot that answers with the bytes at that place.
-fn answering(
-    numbers: &'static [u8],
-    name: &str,
-    pointer: &'static str,
-    detail: Option<&str>,
-) -> Case {
-    let expected = detail.map_or_else(harmless, |detail| fault("interface", detail));
+/// A robot that returns the bytes at that place as its action.
+fn returning(numbers: &'static [u8], name: &str, pointer: &'static str, expected: Value) -> Case {
     Case::new(numbers, name, expected, move || {
         Module {
             next: pointer,
@@ -55,50 +44,58 @@ fn answering(
     })
 }
 
-fn answers() -> Vec<Case> {
-    let unknown = |number| format!("broke the interface: unexpected discriminant: {number}");
+fn actions() -> Vec<Case> {
+    let unknown = |number| violation(&format!("unexpected discriminant: {number}"));
     vec![
-        answering(
+        returning(
             &[35],
             "turn-that-does-not-exist",
             "i32.const 32",
-            Some(&unknown(255)),
+            unknown(255),
         )
         .shown(),
-        answering(
+        returning(
             &[35],
             "action-that-does-not-exist",
             "i32.const 48",
-            Some(&unknown(2)),
+            unknown(2),
         ),
-        answering(&[35], "action-255", "i32.const 64", Some(&unknown(255))),
+        returning(&[35], "action-255", "i32.const 64", unknown(255)),
     ]
 }
 
 fn pointers() -> Vec<Case> {
-    let outside = Some("broke the interface: pointer out of bounds of memory");
+    let outside = || violation("pointer out of bounds of memory");
     let logging = |numbers, name: &str, pointer: u32, length: u32| {
-        let detail = "broke the interface: string pointer/length out of bounds of memory";
-        Case::new(numbers, name, fault("interface", detail), move || {
-            log(1, pointer, length)
-        })
+        let expected = violation("string pointer/length out of bounds of memory");
+        Case::new(numbers, name, expected, move || log(1, pointer, length))
     };
     vec![
-        answering(
+        returning(
             &[37],
-            "answer-behind-the-memory",
+            "action-behind-the-memory",
             "i32.const 65534",
-            outside,
+            outside(),
         ),
-        answering(
+        returning(
             &[37, 39],
-            "answer-at-the-end-of-the-address-space",
+            "action-at-the-end-of-the-address-space",
             "i32.const -1",
-            outside,
+            outside(),
         ),
-        answering(&[37], "answer-in-the-last-bytes", "i32.const 65533", None),
+        returning(
+            &[37],
+            "action-in-the-last-bytes",
+            "i32.const 65533",
+            harmless(),
+        ),
         // The action has no alignment, so an odd address is as good as any.
-        answering(&[38], "answer-at-an-odd-address", "i32.const 17", None),
+        returning(
+            &[38],
+            "action-at-an-odd-address",
+            "i32.const 17",
+            harmless(),
+        ),
         logging(&[37], "text-behind-the-memory", 65_530, 7),
         logging(&[37], "text-far-behind-the-memory", 0x4000_0000, 1),
         logging(&[39], "text-that-wraps-around", 0xffff_fff0, 0x20),
@@ -162,7 +159,7 @@ fn panics() -> Vec<Case> {
         Case::new(
             &[40],
             "panic-with-invalid-utf-8",
-            broken("invalid utf-8 sequence of 1 bytes from index 3"),
+            violation("invalid utf-8 sequence of 1 bytes from index 3"),
             || panic_with(b"ok \xff"),
         ),
         Case::new(
@@ -175,7 +172,7 @@ fn panics() -> Vec<Case> {
         Case::new(
             &[40],
             "panic-outside-memory",
-            broken("string pointer/length out of bounds of memory"),
+            violation("string pointer/length out of bounds of memory"),
             || {
                 Module {
                     imports: r#"(import "wasmouse:robot/journal@VERSION" "panic"
@@ -190,8 +187,8 @@ fn panics() -> Vec<Case> {
 }
 
 fn text() -> Vec<Case> {
-    let invalid = |name: &str, bytes: &'static [u8], detail: &str| {
-        Case::new(&[40], name, broken(detail), move || log_text(bytes))
+    let malformed = |name: &str, bytes: &'static [u8], detail: &str| {
+        Case::new(&[40], name, violation(detail), move || log_text(bytes))
     };
     let of_length = |numbers, name: &str, expected, length: usize| {
         Case::new(numbers, name, expected, move || {
@@ -199,22 +196,22 @@ fn text() -> Vec<Case> {
         })
     };
     vec![
-        invalid(
+        malformed(
             "invalid-utf-8",
             b"ok \xff",
             "invalid utf-8 sequence of 1 bytes from index 3",
         ),
-        invalid(
+        malformed(
             "overlong-utf-8",
             b"\xc0\x80",
             "invalid utf-8 sequence of 1 bytes from index 0",
         ),
-        invalid(
+        malformed(
             "surrogate-in-utf-8",
             b"ok\xed\xa0\x80",
             "invalid utf-8 sequence of 1 bytes from index 2",
         ),
-        invalid(
+        malformed(
             "cut-utf-8",
             b"\xe2\x82",
             "incomplete utf-8 byte sequence from index 0",
@@ -223,17 +220,14 @@ fn text() -> Vec<Case> {
         of_length(
             &[42],
             "text-over-the-allowance",
-            fault("interface", TOO_MUCH),
+            fault("invalid-action", TOO_MUCH),
             65_537,
         )
         .shown(),
         Case::new(
             &[35],
             "level-that-does-not-exist",
-            fault(
-                "interface",
-                "broke the interface: unexpected discriminant: 4",
-            ),
+            violation("unexpected discriminant: 4"),
             || log(4, 0, 0),
         ),
     ]
@@ -242,20 +236,14 @@ fn text() -> Vec<Case> {
 /// Calls into the journal for ever.
 fn floods() -> Vec<Case> {
     let flood = |numbers: &'static [u8], name: &str, import: &'static str, call: &'static str| {
-        Case::new(
-            numbers,
-            name,
-            fault("out-of-step-fuel", OF_A_STEP),
-            move || {
-                Module {
-                    imports: &format!(r#"(import "wasmouse:robot/journal@VERSION" {import})"#),
-                    next: &format!("(loop $forever {call} br $forever) unreachable"),
-                    ..Module::default()
-                }
-                .component()
-            },
-        )
-        .seconds(60)
+        Case::new(numbers, name, out_of_step_fuel(), move || {
+            Module {
+                imports: &format!(r#"(import "wasmouse:robot/journal@VERSION" {import})"#),
+                next: &format!("(loop $forever {call} br $forever) unreachable"),
+                ..Module::default()
+            }
+            .component()
+        })
     };
     vec![
         flood(
@@ -349,8 +337,8 @@ fn forged() -> Vec<Case> {
             .shown(),
         Case::new(
             &[43],
-            "forged-file-name-of-a-refused-file",
-            refused("empty", "the file is empty"),
+            "forged-file-name-of-a-rejected-file",
+            rejected("empty", "the file is empty"),
             Vec::new,
         )
         .named("b\u{1b}[31m\u{9b}b\u{202e}<script>alert(3)<img src=x>\nflood: finished")
@@ -394,28 +382,28 @@ fn encodings() -> Vec<Case> {
         encoded(
             "utf-16-with-half-a-pair",
             UTF16,
-            broken("unpaired surrogate found: d800"),
+            violation("unpaired surrogate found: d800"),
             b"\x00\xd8a\0",
             level_at_64,
         ),
         encoded(
             "utf-16-at-an-odd-address",
             UTF16,
-            broken("string pointer not aligned to 2"),
+            violation("string pointer not aligned to 2"),
             b"",
             "(i32.const 1) (i32.const 65) (i32.const 2)",
         ),
         encoded(
             "utf-16-whose-size-wraps-around",
             UTF16,
-            broken("string pointer/length out of bounds of memory"),
+            violation("string pointer/length out of bounds of memory"),
             b"",
             "(i32.const 1) (i32.const 0) (i32.const 0x80000001)",
         ),
         encoded(
             "utf-16-over-the-allowance",
             UTF16,
-            fault("interface", TOO_MUCH),
+            fault("invalid-action", TOO_MUCH),
             b"",
             "(i32.const 1) (i32.const 0) (i32.const 65536)",
         ),
@@ -423,7 +411,7 @@ fn encodings() -> Vec<Case> {
         encoded(
             "latin-1-that-grows-over-the-allowance",
             LATIN1,
-            fault("interface", TOO_MUCH),
+            fault("invalid-action", TOO_MUCH),
             b"",
             "(i32.const 1) (i32.const 0) (i32.const 65537)",
         ),
@@ -437,15 +425,15 @@ fn encodings() -> Vec<Case> {
         encoded(
             "latin-1-marked-and-too-long",
             LATIN1,
-            broken("string pointer/length out of bounds of memory"),
+            violation("string pointer/length out of bounds of memory"),
             b"",
             "(i32.const 1) (i32.const 64) (i32.const -1)",
         ),
     ]
 }
 
-/// What runs when the answer is given.
-fn after_the_answer() -> Vec<Case> {
+/// What runs after the action is returned.
+fn after_the_action() -> Vec<Case> {
     let after = |name: &str, expected, body: &'static str| {
         Case::new(&[48], name, expected, move || {
             Module {
@@ -460,24 +448,17 @@ fn after_the_answer() -> Vec<Case> {
         })
     };
     vec![
-        after(
-            "trap-in-post-return",
-            fault(
-                "unreachable",
-                "executed `unreachable` (a panic or an abort)",
-            ),
-            "unreachable",
-        ),
+        after("trap-in-post-return", unreachable(), "unreachable"),
         after(
             "log-in-post-return",
-            broken("wasm trap: cannot leave component instance"),
+            violation("wasm trap: cannot leave component instance"),
             "(call $log (i32.const 0) (i32.const 0) (i32.const 1))",
         ),
         after(
             "growth-in-post-return",
             fault(
-                "memory-limit",
-                "asked for 4294967296 bytes of memory in all, of 268435456",
+                "out-of-memory",
+                "exceeded the memory limit: requested 4096 MiB, limit 256 MiB",
             ),
             "(drop (memory.grow (i32.const 65535)))",
         ),
@@ -492,9 +473,9 @@ fn types() -> Vec<Case> {
     let other = |name: &str, reason: &str, right: &'static str, wrong: &'static str| {
         let reason = format!(
             "the component does not fit the world `robot`: \
-             the function `next-move` has another type: {reason}"
+             the function `next-move` has the wrong type: {reason}"
         );
-        Case::new(&[51], name, refused("wrong-type", &reason), move || {
+        Case::new(&[51], name, rejected("wrong-type", &reason), move || {
             let text = Composite::default().wat();
             assert!(text.contains(right), "{right}");
             crate::module::wasm(&text.replace(right, wrong))

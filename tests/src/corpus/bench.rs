@@ -1,53 +1,51 @@
-//! [`Bench`]: plays cases through the `wasmouse` binary and judges what comes of them.
+//! [`Bench`]: plays cases through the `wasmouse` binary and compares the outcomes.
 
 use std::cell::RefCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use serde_json::{Value, json};
-use wasmouse::robot::bundled::find;
+use wasmouse_engine::bundled::find;
 
-use super::case::{Case, Mode, fits};
+use super::case::{Case, Mode};
 use super::measure::{Measured, measure};
 use crate::program::Program;
 
-/// The good robot of every case, which comes with the host, and the same as a stranger's
-/// file, which plays where the hostile robots did.
-const GOOD: &str = "flood";
-const GOOD_FILE: &str = "good";
+/// The good robot of every case: a bundled one as an untrusted file, which plays where the
+/// hostile robots did.
+const GOOD: &str = "good";
 /// Where they play.
 const MAZE: &str = "test_maze_01";
 
-/// The most that the process which the user starts may take where robots run in
-/// others, in MiB.
+/// The memory that the supervisor may use at most, in MiB.
 const SUPERVISOR_MEGABYTES_MAX: u64 = 200;
 
-/// How a robot's failure shows in the exit code.
+/// The exit code of a contest with a rejection or a fault.
 const EXIT_ROBOT: i32 = 4;
 
 /// A program to play with.
 #[derive(Debug)]
 pub struct Bench {
     program: Program,
-    /// What the good robot does alone, by the further arguments.
+    /// The matches of the good robot alone, by the case's arguments.
     alone: RefCell<BTreeMap<String, Vec<Value>>>,
 }
 
-/// What came of a case in a mode.
+/// The outcome of a case in a mode.
 #[derive(Debug)]
 pub struct Judgement {
     /// In a few words.
     pub verdict: String,
-    /// Why the first robot was refused or failed, in the host's words; empty if neither.
+    /// The message of the first rejection or fault; empty if there is none.
     pub reason: String,
     /// What was expected, in a few words.
     pub expected: String,
     /// How long it took.
     pub time: Duration,
-    /// Peak memory of the process that the user starts, in bytes.
+    /// Peak memory of the process that was started, in bytes.
     pub first_bytes: u64,
     /// Peak memory of all processes, in bytes.
     pub all_bytes: u64,
@@ -68,8 +66,8 @@ impl Bench {
             program: Program::new(wasmouse)?,
             alone: RefCell::default(),
         };
-        let good = find(GOOD).ok_or(io::ErrorKind::NotFound)?;
-        fs::write(bench.path(GOOD_FILE), good.component)?;
+        let good = find("flood").ok_or(io::ErrorKind::NotFound)?;
+        fs::write(bench.path(GOOD), good.component)?;
         Ok(bench)
     }
 
@@ -85,9 +83,8 @@ impl Bench {
         let json_at = arguments.len();
         arguments.push("--json".into());
         arguments.extend(robots.iter().map(|name| format!("--robot={name}.wasm")));
-        // After the hostile ones: with one thread, it plays on what they leave.
-        arguments.push(format!("--robot={GOOD_FILE}.wasm"));
-        arguments.push(format!("--robot={GOOD}"));
+        // After the hostile ones: with one thread, it plays in what they leave behind.
+        arguments.push(format!("--robot={GOOD}.wasm"));
         let measured = self.run(&arguments, time_max)?;
 
         let mut judgement = Judgement {
@@ -151,14 +148,14 @@ impl Bench {
         arguments
     }
 
-    /// What the good robot does when it is alone: its matches.
+    /// The matches of the good robot when it is alone.
     fn alone(&self, case: &Case) -> io::Result<Vec<Value>> {
         let key = case.arguments.join(" ");
         if let Some(matches) = self.alone.borrow().get(&key) {
             return Ok(matches.clone());
         }
         let mut arguments = self.arguments(case, Mode::Trusted);
-        arguments.extend(["--json".into(), format!("--robot={GOOD}")]);
+        arguments.extend(["--json".into(), format!("--robot={GOOD}.wasm")]);
         let measured = self.run(&arguments, Duration::from_secs(60))?;
         let document: Value = serde_json::from_str(&measured.stdout)?;
         let matches = matches_of(&document, GOOD);
@@ -186,7 +183,7 @@ impl Bench {
             }
         };
         ceiling("all processes", measured.all_bytes, case.megabytes_max);
-        if mode == Mode::Isolated {
+        if mode == Mode::Sandboxed {
             ceiling(
                 "the supervisor",
                 measured.first_bytes,
@@ -200,7 +197,7 @@ impl Bench {
     }
 }
 
-/// The web page of a case that is looked at.
+/// The web page of a case whose reports are checked.
 const PAGE: &str = "page.html";
 
 impl Judgement {
@@ -209,26 +206,29 @@ impl Judgement {
         self.problems.is_empty()
     }
 
-    /// Looks at the results as JSON.
+    /// Checks the results as JSON.
     fn results(&mut self, case: &Case, robots: &[String], measured: &Measured, alone: &[Value]) {
         let Ok(document) = serde_json::from_str::<Value>(&measured.stdout) else {
             self.verdict = "no result".into();
             let talk: String = measured.stderr.chars().take(500).collect();
             self.problems
-                .push(format!("printed no JSON, and said: {talk:?}"));
+                .push(format!("printed no JSON; stderr: {talk:?}"));
             return;
         };
-        if document["complete"] != json!(true) || document["failed"] != json!([]) {
-            self.problems
-                .push(format!("the host failed: {}", document["failed"]));
+        let summary = &document["summary"];
+        if summary["complete"] != json!(true) || summary["failures"] != json!([]) {
+            let failures = &summary["failures"];
+            self.problems.push(format!("internal error: {failures}"));
         }
         let mut found = Vec::new();
-        let mut is_robots_fault = false;
+        let mut has_failed = false;
         for name in robots {
             for entry in entries_of(&document, name) {
-                is_robots_fault |= entry.get("refusal").is_some() || entry.get("fault").is_some();
-                self.fuel += fuel_of(&entry);
-                if !case.expected.iter().any(|expected| fits(expected, &entry)) {
+                has_failed |=
+                    entry.get("rejection").is_some() || entry["verdict"]["kind"] == json!("fault");
+                let fuel = |part: &str| entry["fuel"][part].as_u64().unwrap_or(0);
+                self.fuel += fuel("start") + fuel("steps");
+                if !case.allows(&entry) {
                     self.problems.push(format!("{name}: {entry}"));
                 }
                 found.push(entry);
@@ -236,27 +236,25 @@ impl Judgement {
         }
         self.verdict = in_few_words(&found);
         self.reason = found.first().map(reason_of).unwrap_or_default();
-        let exit = if is_robots_fault { EXIT_ROBOT } else { 0 };
+        let exit = if has_failed { EXIT_ROBOT } else { 0 };
         let status = measured.status.and_then(|status| status.code());
         if status != Some(exit) {
             self.problems
                 .push(format!("exit code {status:?} instead of {exit}"));
         }
-        for good in [GOOD_FILE, GOOD] {
-            let matches = matches_of(&document, good);
-            if matches != alone {
-                self.problems
-                    .push(format!("{good} does not play as ever: {matches:?}"));
-            }
+        let matches = matches_of(&document, GOOD);
+        if matches != alone {
+            self.problems
+                .push(format!("the good robot was affected: {matches:?}"));
         }
         self.harmless("the JSON", &measured.stdout);
-        self.harmless("standard error", &measured.stderr);
+        self.harmless("stderr", &measured.stderr);
     }
 
-    /// Looks at the reports for people.
+    /// Checks the reports for people.
     fn texts(&mut self, shown: &Measured, page: &str) {
-        self.harmless("standard output", &shown.stdout);
-        self.harmless("standard error", &shown.stderr);
+        self.harmless("stdout", &shown.stdout);
+        self.harmless("stderr", &shown.stderr);
         self.harmless("the page", page);
         if shown.stdout.is_empty() {
             self.problems.push(format!("no table: {}", shown.stderr));
@@ -269,7 +267,7 @@ impl Judgement {
         }
     }
 
-    /// Nothing that plays with a terminal or with the eye.
+    /// No character that controls a terminal or deceives the eye.
     fn harmless(&mut self, what: &str, text: &str) {
         let harmful = text.chars().find(|&character| {
             (character.is_control() && character != '\n')
@@ -280,22 +278,17 @@ impl Judgement {
                 .push(format!("{what} has the character {character:?}"));
         }
         if text.contains("panicked at") {
-            self.problems.push(format!("{what} tells of a panic"));
+            self.problems.push(format!("{what} reports a panic"));
         }
     }
 }
 
-/// What became of a robot: its refusal, or its matches.
+/// The rejection of a robot, or its matches.
 fn entries_of(document: &Value, name: &str) -> Vec<Value> {
-    let robots = document["robots"].as_array();
-    let robot = robots
-        .into_iter()
-        .flatten()
-        .find(|robot| robot["name"] == json!(name));
-    match robot {
+    match robot(document, name) {
         None => vec![json!({"missing": name})],
-        Some(robot) => match robot.get("refusal") {
-            Some(refusal) => vec![json!({"refusal": refusal})],
+        Some(robot) => match robot.get("rejection") {
+            Some(rejection) => vec![json!({"rejection": rejection})],
             None => match matches_of(document, name) {
                 matches if matches.is_empty() => vec![json!({"no match": name})],
                 matches => matches,
@@ -304,47 +297,37 @@ fn entries_of(document: &Value, name: &str) -> Vec<Value> {
     }
 }
 
-/// The matches of a robot, without its name.
-fn matches_of(document: &Value, name: &str) -> Vec<Value> {
-    let matches = document["matches"].as_array();
-    let of_robot = matches
-        .into_iter()
-        .flatten()
-        .filter(|it| it["robot"] == json!(name));
-    let nameless = of_robot.cloned().map(|mut result| {
-        result["robot"].take();
-        result
-    });
-    nameless.collect()
+fn robot<'a>(document: &'a Value, name: &str) -> Option<&'a Value> {
+    let mut robots = document["contest"]["robots"].as_array()?.iter();
+    robots.find(|robot| robot["name"] == json!(name))
 }
 
-fn fuel_of(entry: &Value) -> u64 {
-    let fuel = |name: &str| entry[name].as_u64().unwrap_or(0);
-    fuel("start_fuel") + fuel("steps_fuel")
+fn matches_of(document: &Value, name: &str) -> Vec<Value> {
+    let digest = robot(document, name).map(|robot| &robot["digest"]);
+    let matches = document["matches"].as_array().into_iter().flatten();
+    let of_robot = matches.filter(|it| Some(&it["key"]["robot"]) == digest);
+    of_robot.cloned().collect()
 }
 
 fn reason_of(entry: &Value) -> String {
-    let reason = entry["refusal"]["reason"].as_str();
-    let detail = entry["fault"]["detail"].as_str();
+    let reason = entry["rejection"]["reason"].as_str();
+    let detail = entry["verdict"]["fault"]["detail"].as_str();
     reason.or(detail).unwrap_or_default().to_owned()
 }
 
-/// The kinds of what became of robots, each once.
+/// The kinds of outcomes, each once.
 fn in_few_words(entries: &[Value]) -> String {
-    let mut kinds: Vec<String> = entries
-        .iter()
-        .map(|entry| {
-            let text = |value: &Value| value.as_str().unwrap_or("?").to_owned();
-            if let Some(refusal) = entry.get("refusal") {
-                format!("refused: {}", text(&refusal["kind"]))
-            } else if let Some(fault) = entry.get("fault") {
-                format!("fault: {}", text(&fault["kind"]))
-            } else {
-                text(&entry["verdict"])
-            }
-        })
-        .collect();
-    kinds.sort();
-    kinds.dedup();
-    kinds.join(" | ")
+    let kind = |value: &Value| value["kind"].as_str().unwrap_or("?").to_owned();
+    let kinds = entries.iter().map(|entry| {
+        let (rejection, fault) = (&entry["rejection"], &entry["verdict"]["fault"]);
+        if rejection.is_object() {
+            format!("rejected: {}", kind(rejection))
+        } else if fault.is_object() {
+            format!("fault: {}", kind(fault))
+        } else {
+            kind(&entry["verdict"])
+        }
+    });
+    let kinds: BTreeSet<String> = kinds.collect();
+    Vec::from_iter(kinds).join(" | ")
 }

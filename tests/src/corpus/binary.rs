@@ -1,4 +1,4 @@
-//! Sections of WebAssembly binaries, for what the text format cannot say, and bytes for
+//! Sections of WebAssembly binaries, for what the text format cannot express, and bytes for
 //! the text format.
 
 /// A section with that number and content.
@@ -15,25 +15,6 @@ pub fn custom(name: &str, content: &[u8]) -> Vec<u8> {
     body.extend_from_slice(name.as_bytes());
     body.extend_from_slice(content);
     section(0, &body)
-}
-
-/// A core module of these sections, with their numbers.
-pub fn core_module(sections: &[(u8, Vec<u8>)]) -> Vec<u8> {
-    let sections = sections
-        .iter()
-        .flat_map(|(number, content)| section(*number, content));
-    b"\0asm\x01\0\0\0".iter().copied().chain(sections).collect()
-}
-
-/// So many items, written one after the other.
-pub fn vector(count: usize, items: &[u8]) -> Vec<u8> {
-    [leb128(count), items.to_vec()].concat()
-}
-
-/// A function's entry in the code section: its groups of locals and its code.
-pub fn body(locals: &[u8], code: &[u8]) -> Vec<u8> {
-    let content = [locals, code, &[0x0b]].concat();
-    vector(content.len(), &content)
 }
 
 /// A number as WebAssembly writes it.

@@ -1,4 +1,4 @@
-//! [`Case`]: a hostile robot and what has to become of it.
+//! [`Case`]: a hostile robot and the outcome that it must have.
 
 use std::fmt;
 
@@ -9,20 +9,20 @@ use crate::module::versioned;
 /// How the binary runs robots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// In worker processes, confined: what users get.
-    Isolated,
-    /// In the process itself: what users get with `--trust`.
+    /// In sandboxed worker processes: the default.
+    Sandboxed,
+    /// In the process itself: `--trust`.
     Trusted,
 }
 
 impl Mode {
-    /// Both, what users get first.
-    pub const ALL: [Self; 2] = [Self::Isolated, Self::Trusted];
+    /// Both, the default first.
+    pub const ALL: [Self; 2] = [Self::Sandboxed, Self::Trusted];
 
     /// The name in tables.
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Isolated => "isolated",
+            Self::Sandboxed => "sandboxed",
             Self::Trusted => "trusted",
         }
     }
@@ -37,8 +37,8 @@ pub struct Case {
     pub numbers: &'static [u8],
     /// A name: lowercase letters, digits and hyphens.
     pub name: String,
-    /// What has to become of each file: one of these. Each is a part of a JSON object
-    /// as `wasmouse run --json` prints them: of a match, or `{"refusal": ...}`. In
+    /// The outcomes that each file may have. Each is a part of a JSON object
+    /// as `wasmouse run --json` prints them: of a match, or `{"rejection": ...}`. In
     /// texts, `...` stands for anything.
     pub expected: Vec<Value>,
     /// Ceiling of the time for everything, in seconds.
@@ -49,7 +49,7 @@ pub struct Case {
     pub arguments: &'static [&'static str],
     /// The name of the file, without its ending, where it is not [`Case::name`].
     pub file_name: Option<&'static str>,
-    /// Whether the reports for people are looked at too: tables, journal and page.
+    /// Whether the reports for people are checked too: tables, journal and page.
     pub is_shown: bool,
     /// Whether it takes long, and is left out unless it is asked for.
     pub is_long: bool,
@@ -64,7 +64,7 @@ pub const MEGABYTES_MAX: u64 = 200;
 const SECONDS_MAX: u64 = 60;
 
 impl Case {
-    /// A robot and what has to become of it.
+    /// A robot and its expected outcome.
     pub fn new(
         numbers: &'static [u8],
         name: impl Into<String>,
@@ -95,7 +95,7 @@ impl Case {
         }
     }
 
-    /// The same case, where this is right as well.
+    /// The same case with one more outcome that is allowed.
     #[must_use]
     pub fn or(mut self, expected: Value) -> Self {
         self.expected.push(expected);
@@ -123,14 +123,14 @@ impl Case {
         self
     }
 
-    /// The same case in a file of that name, which need not be harmless.
+    /// The same case in a file of that name, which may be hostile too.
     #[must_use]
     pub const fn named(mut self, file_name: &'static str) -> Self {
         self.file_name = Some(file_name);
         self
     }
 
-    /// The same case, looked at in the reports for people too.
+    /// The same case, checked in the reports for people too.
     #[must_use]
     pub const fn shown(mut self) -> Self {
         self.is_shown = true;
@@ -142,6 +142,11 @@ impl Case {
     pub const fn long(mut self) -> Self {
         self.is_long = true;
         self
+    }
+
+    /// Whether this is an outcome that a file of the case may have.
+    pub fn allows(&self, outcome: &Value) -> bool {
+        self.expected.iter().any(|expected| fits(expected, outcome))
     }
 
     /// The files.
@@ -175,31 +180,69 @@ pub fn fault(kind: &str, detail: &str) -> Value {
 
 /// The robot fails in that phase and step.
 pub fn fault_in(phase: &str, step: u32, kind: &str, detail: &str) -> Value {
-    json!({
-        "verdict": "fault",
-        "fault": {"phase": phase, "step": step, "kind": kind, "detail": detail},
-    })
+    let fault = json!({"phase": phase, "step": step, "kind": kind, "detail": detail});
+    json!({"verdict": {"kind": "fault", "fault": fault}})
+}
+
+/// The robot passes or returns something that the interface does not allow.
+pub fn violation(detail: &str) -> Value {
+    fault(
+        "invalid-action",
+        &format!("violated the interface: {detail}"),
+    )
+}
+
+/// The robot executes `unreachable` in step 1.
+pub fn unreachable() -> Value {
+    let detail = "executed `unreachable` (panicked or aborted)";
+    fault("unreachable", detail)
+}
+
+/// The robot takes too long before the first step.
+pub fn out_of_start_fuel(phase: &str) -> Value {
+    let detail = "exceeded the start fuel limit (2,000,000,000)";
+    fault_in(phase, 0, "out-of-start-fuel", detail)
+}
+
+/// The robot takes too long in step 1.
+pub fn out_of_step_fuel() -> Value {
+    let detail = "exceeded the per-step fuel limit (2,000,000,000)";
+    fault("out-of-step-fuel", detail)
+}
+
+/// The robot takes too long in all, which ends it in that step.
+pub fn out_of_match_fuel(step: u32) -> Value {
+    let detail = "exceeded the match fuel limit (20,000,000,000)";
+    fault_in("next-move", step, "out-of-match-fuel", detail)
 }
 
 /// The file is not admitted.
-pub fn refused(kind: &str, reason: &str) -> Value {
-    json!({"refusal": {"kind": kind, "reason": versioned(reason)}})
+pub fn rejected(kind: &str, reason: &str) -> Value {
+    json!({"rejection": {"kind": kind, "reason": versioned(reason)}})
+}
+
+/// The file exceeds a limit.
+pub fn over_limit(found: &str, max: u64) -> Value {
+    let reason = format!("the file has {found}, and the limit is {max} (...)");
+    rejected("over-limit", &reason)
+}
+
+/// The component is not valid, for that reason.
+pub fn invalid(reason: &str) -> Value {
+    let reason = format!("the component is not valid: {reason} at byte ...");
+    rejected("invalid", &reason)
 }
 
 /// The robot does no harm and gets nowhere.
 pub fn harmless() -> Value {
-    json!({"verdict": "budget-used-up", "exploration_steps": 1000, "speed_steps": 0})
+    json!({
+        "verdict": {"kind": "budget-used-up", "goal_reached": false},
+        "steps": {"exploration": 1000, "speed": 0},
+    })
 }
 
-/// The limits of fuel in texts.
-pub const OF_THE_START: &str = "used up the 2000000000 units of fuel for the start";
-/// The limit of a step.
-pub const OF_A_STEP: &str = "used up the 2000000000 units of fuel of a step";
-/// The limit of a match.
-pub const OF_THE_MATCH: &str = "used up the 20000000000 units of fuel of the match";
-
 /// Whether everything that `expected` has is in `found`.
-pub fn fits(expected: &Value, found: &Value) -> bool {
+fn fits(expected: &Value, found: &Value) -> bool {
     match (expected, found) {
         (Value::Object(expected), Value::Object(found)) => expected
             .iter()

@@ -1,9 +1,9 @@
-//! Costs: loops of operators that may take longer than their fuel says.
+//! Costs: loops of operators that may take longer than their fuel implies.
 //!
-//! Each uses up the fuel of a step; the table of the corpus says how many nanoseconds a
+//! Each uses up the fuel of a step; the table of the corpus shows how many nanoseconds a
 //! unit of it took.
 
-use super::case::{Case, OF_A_STEP, OF_THE_MATCH, fault, fault_in};
+use super::case::{Case, out_of_match_fuel, out_of_step_fuel};
 use crate::module::Module;
 
 /// A robot that does one thing for ever.
@@ -142,7 +142,7 @@ pub fn cases() -> Vec<Case> {
 
 impl Endless {
     fn case(self) -> Case {
-        let expected = fault("out-of-step-fuel", OF_A_STEP);
+        let expected = out_of_step_fuel();
         let mut case = Case::new(self.numbers, self.name, expected, move || self.component());
         case.megabytes_max = self.megabytes_max;
         case.is_long = self.is_long;
@@ -167,7 +167,7 @@ impl Endless {
 
 /// Ends, and comes again with every step until the fuel of the match is used up.
 fn fill_each_step() -> Case {
-    let expected = fault_in("next-move", 75, "out-of-match-fuel", OF_THE_MATCH);
+    let expected = out_of_match_fuel(75);
     Case::new(&[15], "fill-of-all-memory-each-step", expected, || {
         Module {
             memory: LARGE.memory,
@@ -178,5 +178,4 @@ fn fill_each_step() -> Case {
         .component()
     })
     .megabytes(LARGE.megabytes_max)
-    .seconds(60)
 }

@@ -1,6 +1,8 @@
 //! Execution: loops, recursion, fuel to the last unit, state and traps.
 
-use super::case::{Case, OF_A_STEP, OF_THE_MATCH, OF_THE_START, fault, fault_in, harmless};
+use super::case::{
+    Case, fault, fault_in, harmless, out_of_match_fuel, out_of_start_fuel, out_of_step_fuel,
+};
 use crate::composite::Composite;
 use crate::module::{DRIVE_ON, IMPORT_LOG, Module};
 use serde_json::json;
@@ -42,7 +44,7 @@ fn endless_loops() -> Vec<Case> {
         Case::new(
             &[1],
             "loop-in-core-start",
-            fault_in("instantiate", 0, "out-of-start-fuel", OF_THE_START),
+            out_of_start_fuel("instantiate"),
             || {
                 Module {
                     rest: &format!("(func $begin {FOREVER}) (start $begin)"),
@@ -54,7 +56,7 @@ fn endless_loops() -> Vec<Case> {
         Case::new(
             &[2],
             "loop-in-second-instance",
-            fault_in("instantiate", 0, "out-of-start-fuel", OF_THE_START),
+            out_of_start_fuel("instantiate"),
             || {
                 Composite {
                     after: &format!(
@@ -66,24 +68,16 @@ fn endless_loops() -> Vec<Case> {
                 .component()
             },
         ),
-        Case::new(
-            &[3],
-            "loop-in-start",
-            fault_in("start", 0, "out-of-start-fuel", OF_THE_START),
-            || {
-                Module {
-                    start: FOREVER,
-                    ..Module::default()
-                }
-                .component()
-            },
-        ),
-        Case::new(
-            &[4],
-            "loop-in-step",
-            fault("out-of-step-fuel", OF_A_STEP),
-            || once("", FOREVER),
-        ),
+        Case::new(&[3], "loop-in-start", out_of_start_fuel("start"), || {
+            Module {
+                start: FOREVER,
+                ..Module::default()
+            }
+            .component()
+        }),
+        Case::new(&[4], "loop-in-step", out_of_step_fuel(), || {
+            once("", FOREVER)
+        }),
         // The world has no call that needs it, so nobody calls it.
         Case::new(&[5], "loop-in-unused-realloc", harmless(), || {
             Module {
@@ -95,36 +89,23 @@ fn endless_loops() -> Vec<Case> {
             }
             .component()
         }),
-        Case::new(
-            &[6],
-            "loop-in-post-return",
-            fault("out-of-step-fuel", OF_A_STEP),
-            || post_return(FOREVER),
-        ),
-        Case::new(
-            &[7],
-            "loop-of-free-operators",
-            fault("out-of-step-fuel", OF_A_STEP),
-            || {
-                let free = "nop (block) (loop) (if (i32.const 0) (then) (else))".repeat(50);
-                once("", &format!("(loop $forever {free} br $forever)"))
-            },
-        ),
-        Case::new(
-            &[11],
-            "endless-tail-calls",
-            fault("out-of-step-fuel", OF_A_STEP),
-            || {
-                once(
-                    "(func $even return_call $odd) (func $odd return_call $even)",
-                    "call $even",
-                )
-            },
-        ),
+        Case::new(&[6], "loop-in-post-return", out_of_step_fuel(), || {
+            post_return(FOREVER)
+        }),
+        Case::new(&[7], "loop-of-free-operators", out_of_step_fuel(), || {
+            let free = "nop (block) (loop) (if (i32.const 0) (then) (else))".repeat(50);
+            once("", &format!("(loop $forever {free} br $forever)"))
+        }),
+        Case::new(&[11], "endless-tail-calls", out_of_step_fuel(), || {
+            once(
+                "(func $even return_call $odd) (func $odd return_call $even)",
+                "call $even",
+            )
+        }),
         Case::new(
             &[11, 12],
             "endless-indirect-tail-calls",
-            fault("out-of-step-fuel", OF_A_STEP),
+            out_of_step_fuel(),
             || {
                 once(
                     "(type $action (func)) (table 2 funcref) (elem (i32.const 0) $even $odd)
@@ -232,12 +213,16 @@ fn burn(fuel: u64) -> String {
 
 fn fuel_to_the_last_unit() -> Vec<Case> {
     // Entering the function takes 1, asking whether it is the first step 3, noting
-    // that 2, and the answer 1. A call costs 3 besides its arguments, and a component
+    // that 2, and the action 1. A call costs 3 besides its arguments, and a component
     // reaches the host through a shim that takes 11.
     const AROUND: u64 = 7;
     const LOG: u64 = 6 + 11 + 200;
     let log = "(call $log (i32.const 0) (i32.const 0) (i32.const 0))";
-    let ends = |used: u64| json!({"verdict": "budget-used-up", "exploration_steps": 1000, "step_fuel_max": used});
+    let ends = |used: u64| {
+        let mut expected = harmless();
+        expected["fuel"]["step_max"] = json!(used);
+        expected
+    };
     let case = |numbers, name: &str, expected, fuel: u64, then: String| {
         Case::new(numbers, name, expected, move || {
             once("(func $idle)", &format!("{}{then}", burn(fuel)))
@@ -262,7 +247,7 @@ fn fuel_to_the_last_unit() -> Vec<Case> {
         case(
             &[13],
             "fuel-ends-at-a-call",
-            fault("out-of-step-fuel", OF_A_STEP),
+            out_of_step_fuel(),
             STEP_FUEL - AROUND - 1,
             "(call $idle)".into(),
         ),
@@ -276,15 +261,15 @@ fn fuel_to_the_last_unit() -> Vec<Case> {
         case(
             &[13],
             "fuel-ends-in-a-host-call",
-            fault("out-of-step-fuel", OF_A_STEP),
-            // The answer behind it is not reached, and one unit is missing.
+            out_of_step_fuel(),
+            // The action behind it is not reached, and one unit is missing.
             STEP_FUEL - AROUND - LOG + 2,
             log.into(),
         ),
         Case::new(
             &[14],
             "one-unit-left-each-step",
-            fault_in("next-move", 11, "out-of-match-fuel", OF_THE_MATCH),
+            out_of_match_fuel(11),
             || {
                 Module {
                     next: &format!("(local $left i32) {} {DRIVE_ON}", burn(STEP_FUEL - 3)),
@@ -292,8 +277,7 @@ fn fuel_to_the_last_unit() -> Vec<Case> {
                 }
                 .component()
             },
-        )
-        .seconds(60),
+        ),
     ]
 }
 
@@ -407,7 +391,7 @@ fn nan_bits() -> Vec<u8> {
 }
 
 fn traps() -> Vec<Case> {
-    const TABLE: &str = "(type $answer (func (result i32)))
+    const TABLE: &str = "(type $action (func (result i32)))
         (table 3 funcref)
         (elem (i32.const 1) $other)
         (func $other (param f64))";
@@ -415,7 +399,7 @@ fn traps() -> Vec<Case> {
         (
             "unreachable",
             "unreachable",
-            "executed `unreachable` (a panic or an abort)",
+            "executed `unreachable` (panicked or aborted)",
             "unreachable",
         ),
         (
@@ -445,7 +429,7 @@ fn traps() -> Vec<Case> {
         (
             "truncation-of-nan",
             "integer-overflow",
-            "converted a float that fits no integer",
+            "converted a float that does not fit an integer",
             "(i64.trunc_f64_u (f64.const nan)) drop",
         ),
         (
@@ -470,19 +454,25 @@ fn traps() -> Vec<Case> {
             "null-indirect-call",
             "bad-indirect-call",
             "called a null function",
-            "(call_indirect (type $answer) (i32.const 0)) drop",
+            "(call_indirect (type $action) (i32.const 0)) drop",
         ),
         (
             "mistyped-indirect-call",
             "bad-indirect-call",
-            "called a function of another type",
-            "(call_indirect (type $answer) (i32.const 1)) drop",
+            "called a function of the wrong type",
+            "(call_indirect (type $action) (i32.const 1)) drop",
         ),
         (
             "indirect-call-out-of-bounds",
             "out-of-bounds",
             "accessed a table out of bounds",
-            "(call_indirect (type $answer) (i32.const -1)) drop",
+            "(call_indirect (type $action) (i32.const -1)) drop",
+        ),
+        (
+            "indirect-call-over-the-edge",
+            "out-of-bounds",
+            "accessed a table out of bounds",
+            "(call_indirect (type $action) (i32.const 3)) drop",
         ),
     ]
     .into_iter()

@@ -1,9 +1,7 @@
 //! Inner components: what the canonical ABI does between the components of a robot, at
 //! its own `realloc`, with resources, and when it calls itself.
 
-use serde_json::Value;
-
-use super::case::{Case, OF_A_STEP, fault, harmless};
+use super::case::{Case, fault, harmless, out_of_step_fuel, unreachable, violation};
 use crate::composite::Composite;
 use crate::module::{DRIVE_ON, Module};
 
@@ -30,11 +28,6 @@ struct Handover {
     take: &'static str,
     /// Canonical options of the inner component.
     options: &'static str,
-}
-
-/// A fault that the canonical ABI tells in these words.
-fn broken(detail: &str) -> Value {
-    fault("interface", &format!("broke the interface: {detail}"))
 }
 
 const TEXT: Handover = Handover {
@@ -114,7 +107,7 @@ fn reallocs() -> Vec<Case> {
         realloc(
             &[5],
             "loop-in-realloc",
-            fault("out-of-step-fuel", OF_A_STEP),
+            out_of_step_fuel(),
             body("(loop $forever br $forever) unreachable"),
         ),
         // The null pointer is an address like any other.
@@ -127,34 +120,31 @@ fn reallocs() -> Vec<Case> {
         realloc(
             &[45],
             "realloc-out-of-bounds",
-            broken("wasm trap: string content out-of-bounds"),
+            violation("wasm trap: string content out-of-bounds"),
             body("i32.const 65533"),
         ),
         realloc(
             &[45],
             "realloc-at-the-end-of-the-address-space",
-            broken("wasm trap: string content out-of-bounds"),
+            violation("wasm trap: string content out-of-bounds"),
             body("i32.const -1"),
         ),
         realloc(
             &[45],
             "realloc-misaligned",
-            broken("wasm trap: unaligned pointer"),
+            violation("wasm trap: unaligned pointer"),
             wide("i32.const 129"),
         ),
         realloc(
             &[45],
             "realloc-that-traps",
-            fault(
-                "unreachable",
-                "executed `unreachable` (a panic or an abort)",
-            ),
+            unreachable(),
             body("unreachable"),
         ),
         realloc(
             &[46],
             "realloc-that-logs",
-            broken("wasm trap: cannot leave component instance"),
+            violation("wasm trap: cannot leave component instance"),
             body("(call $log (i32.const 0) (i32.const 0) (i32.const 1)) i32.const 128"),
         ),
         realloc(
@@ -169,7 +159,7 @@ fn reallocs() -> Vec<Case> {
         realloc(
             &[39],
             "text-of-4-gib-to-an-inner-component",
-            broken("wasm trap: string content out-of-bounds"),
+            violation("wasm trap: string content out-of-bounds"),
             Handover {
                 given: "(i32.const 64) (i32.const -1)",
                 ..TEXT
@@ -178,7 +168,7 @@ fn reallocs() -> Vec<Case> {
         realloc(
             &[40],
             "invalid-utf-8-to-an-inner-component",
-            broken("invalid utf8 encoding"),
+            violation("invalid utf8 encoding"),
             Handover {
                 given: "(i32.const 64) (i32.const 6)",
                 ..wide("i32.const 0")
@@ -209,14 +199,14 @@ fn values() -> Vec<Case> {
         ),
         value(
             "surrogate-char",
-            broken("wasm trap: invalid `char` bit pattern"),
+            violation("wasm trap: invalid `char` bit pattern"),
             "char",
             "(i32.const 0xd800)",
             "",
         ),
         value(
             "char-beyond-unicode",
-            broken("wasm trap: invalid `char` bit pattern"),
+            violation("wasm trap: invalid `char` bit pattern"),
             "char",
             "(i32.const 0x110000)",
             "",
@@ -238,7 +228,7 @@ fn reentry() -> Vec<Case> {
         Case::new(
             &[47],
             "re-entry-of-itself",
-            broken("wasm trap: cannot enter component instance"),
+            violation("wasm trap: cannot enter component instance"),
             || {
                 Composite {
                     memory: TABLE,
@@ -267,7 +257,7 @@ fn reentry() -> Vec<Case> {
         Case::new(
             &[47],
             "call-of-a-component-inside-itself",
-            broken("wasm trap: cannot enter component instance"),
+            violation("wasm trap: cannot enter component instance"),
             || {
                 Composite {
                     memory: TABLE,
@@ -329,13 +319,13 @@ fn resources() -> Vec<Case> {
         using(
             &[49],
             "resources-for-ever",
-            broken("cannot allocate another handle: store handle limit exceeded"),
+            violation("cannot allocate another handle: store handle limit exceeded"),
             "(loop $forever (drop (call $new (i32.const 7))) (br $forever))",
         ),
         using(
             &[49],
             "resources-given-back",
-            fault("out-of-step-fuel", OF_A_STEP),
+            out_of_step_fuel(),
             "(loop $forever (call $drop (call $new (i32.const 7))) (br $forever))",
         )
         .seconds(200)
@@ -343,20 +333,20 @@ fn resources() -> Vec<Case> {
         using(
             &[50],
             "resource-dropped-twice",
-            broken("unknown handle index 1"),
+            violation("unknown handle index 1"),
             "(local.set $thing (call $new (i32.const 7)))
              (call $drop (local.get $thing)) (call $drop (local.get $thing))",
         ),
         using(
             &[50],
             "resource-never-made",
-            broken("unknown handle index 12345"),
+            violation("unknown handle index 12345"),
             "(call $drop (i32.const 12345))",
         ),
         using(
             &[50],
             "resource-asked-after-its-drop",
-            broken("unknown handle index 1"),
+            violation("unknown handle index 1"),
             "(local.set $thing (call $new (i32.const 7)))
              (call $drop (local.get $thing)) (drop (call $rep (local.get $thing)))",
         ),

@@ -1,7 +1,7 @@
 //! [`measure`]: a command's time, the memory of all its processes, and whether one of
 //! them stays behind.
 //!
-//! Linux alone says these things (`/proc`); elsewhere memory is told as zero.
+//! Only Linux provides these figures (`/proc`); elsewhere memory is zero.
 
 use std::fs::{self, File};
 use std::io;
@@ -12,14 +12,14 @@ use std::time::{Duration, Instant};
 
 use crate::program::Program;
 
-/// What a command did and needed.
+/// The result of a command and the resources that it used.
 #[derive(Debug)]
 pub struct Measured {
-    /// How it ended; `None` when it was ended for taking too much.
+    /// How it ended; `None` when it was killed because it used too much.
     pub status: Option<ExitStatus>,
-    /// What it printed.
+    /// What it wrote to stdout.
     pub stdout: String,
-    /// What it said.
+    /// What it wrote to stderr.
     pub stderr: String,
     /// How long it took.
     pub time: Duration,
@@ -32,15 +32,15 @@ pub struct Measured {
     pub left_behind: usize,
 }
 
-/// How often memory is looked at. A process tells its peak itself, so a short one is
-/// not missed as long as its process lives on for that long.
+/// How often memory is sampled. The kernel reports the peak of a process, so a short peak is not
+/// missed as long as the process lives on for that long.
 const SAMPLE: Duration = Duration::from_millis(2);
 
-/// More memory than this ends everything, whatever the caller's ceiling: the corpus
-/// must not take its machine with it.
+/// A command that uses more memory is killed, whatever the caller's ceiling, before the machine
+/// runs out of it.
 const BYTES_MAX: u64 = 6 << 30;
 
-/// Runs the program with what it prints kept in files of its folder.
+/// Runs the program with its output in files of its folder.
 ///
 /// # Errors
 ///

@@ -1,5 +1,5 @@
 //! The hostile corpus: what a broken or malicious robot may try, each as a case with
-//! the verdict or refusal that it has to get, and ceilings of time and memory.
+//! its verdict or rejection, and ceilings of time and memory.
 //!
 //! The cases are data, one file for each chapter, generated when they are needed.
 //! [`Bench`] plays them through the `wasmouse` binary and judges; the program `corpus`

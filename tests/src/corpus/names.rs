@@ -1,6 +1,6 @@
 //! Names: conflicting, long, many, and with something for the terminal in them.
 
-use super::case::{Case, fault, refused};
+use super::case::{Case, invalid, over_limit, rejected, unreachable};
 use crate::composite::Composite;
 use crate::module::{Module, wasm};
 
@@ -39,67 +39,46 @@ fn component_names() -> Vec<Case> {
         Case::new(
             &[61],
             "conflicting-import-names",
-            refused(
-                "invalid",
-                "the component is not valid: import name `A-B` conflicts with previous name `a-b` at byte ...",
-            ),
+            invalid("import name `A-B` conflicts with previous name `a-b`"),
             || importing(r#"(import "a-b" (func)) (import "A-B" (func))"#),
         ),
         Case::new(
             &[61],
             "conflicting-export-names",
-            refused(
-                "invalid",
-                "the component is not valid: export name `A-B` conflicts with previous name `a-b` at byte ...",
-            ),
+            invalid("export name `A-B` conflicts with previous name `a-b`"),
             || exporting(r#"(export "a-b" (func $start)) (export "A-B" (func $start))"#),
         ),
         Case::new(
             &[61],
             "export-name-with-an-escape",
-            refused(
-                "invalid",
-                "the component is not valid: export name `...` is not a valid extern name: `...` is not in kebab case at byte ...",
-            ),
+            invalid("export name `...` is not a valid extern name: `...` is not in kebab case"),
             || exporting(r#"(export "\1b[31m\u{9b}\u{202e}" (func $start))"#),
         )
         .shown(),
         Case::new(
             &[61],
             "import-name-with-an-escape",
-            refused(
-                "invalid",
-                "the component is not valid: import name `...` is not a valid extern name: `...` is not in kebab case at byte ...",
-            ),
+            invalid("import name `...` is not a valid extern name: `...` is not in kebab case"),
             || importing(r#"(import "\1b[31m\u{9b}\u{202e}" (func))"#),
         )
         .shown(),
         Case::new(
             &[61],
             "import-name-of-90-kb",
-            refused(
-                "over-limit",
-                "the file has 90000 bytes in a name, and the limit is 2000 (byte ...)",
-            ),
+            over_limit("90000 bytes in a name", 2000),
             || importing(&format!(r#"(import "{}" (func))"#, long(90_000))),
         )
         .shown(),
         Case::new(
             &[61],
             "import-name-of-a-megabyte",
-            refused(
-                "invalid",
-                "the component is not valid: string size out of bounds at byte ...",
-            ),
+            invalid("string size out of bounds"),
             || importing(&format!(r#"(import "{}" (func))"#, long(1_000_000))),
         ),
         Case::new(
             &[61],
             "100000-export-names",
-            refused(
-                "over-limit",
-                "the file has 100004 component items, and the limit is 10000 (byte ...)",
-            ),
+            over_limit("100004 component items", 10000),
             || {
                 let exports: String = (0..100_000)
                     .map(|at| format!(r#"(export "e{at}" (func $f))"#))
@@ -113,8 +92,7 @@ fn component_names() -> Vec<Case> {
                 ))
             },
         )
-        .shown()
-        .seconds(60),
+        .shown(),
     ]
 }
 
@@ -123,7 +101,7 @@ fn module_names() -> Vec<Case> {
         Case::new(
             &[61],
             "module-export-names-of-90-kb",
-            refused("over-limit", "the file has 90001 bytes in a name, and the limit is 2000 (byte ...)"),
+            over_limit("90001 bytes in a name", 2000),
             || {
                 let exports: String = (0..100)
                     .map(|at| format!(r#"(func (export "{}{at}"))"#, long(90_000)))
@@ -135,7 +113,7 @@ fn module_names() -> Vec<Case> {
         Case::new(
             &[61],
             "module-import-of-90-kb",
-            refused("over-limit", "the file has 90000 bytes in a name, and the limit is 2000 (byte ...)"),
+            over_limit("90000 bytes in a name", 2000),
             || {
                 Module {
                     imports: &format!(r#"(import "{0}" "{0}" (func))"#, long(90_000)),
@@ -148,10 +126,7 @@ fn module_names() -> Vec<Case> {
         Case::new(
             &[69],
             "function-with-an-escape-in-its-name",
-            fault(
-                "unreachable",
-                "executed `unreachable` (a panic or an abort)",
-            ),
+            unreachable(),
             || {
                 Module {
                     rest: r#"(func $f
@@ -167,7 +142,7 @@ fn module_names() -> Vec<Case> {
         Case::new(
             &[69],
             "module-import-with-an-escape",
-            refused("core-module", "core module imports `\\u{202e}\\u{7}` from `\\u{1b}[31m\\u{9b}m`, which no robot may import"),
+            rejected("core-module", "core module imports `\\u{202e}\\u{7}` from `\\u{1b}[31m\\u{9b}m`, which is not available to robots"),
             || {
                 Module {
                     imports: r#"(import "\1b[31m\u{9b}m" "\u{202e}\07" (func))"#,
@@ -180,14 +155,14 @@ fn module_names() -> Vec<Case> {
         Case::new(
             &[69],
             "module-export-with-an-escape",
-            refused("core-module", "core module without component types that exports neither `wasmouse:robot/controller@VERSION#start` nor `wasmouse:robot/controller@VERSION#next-move`; it exports `\\u{1b}[31m\\u{9b}m\\u{202e}`"),
+            rejected("core-module", "core module without component types that exports neither `wasmouse:robot/controller@VERSION#start` nor `wasmouse:robot/controller@VERSION#next-move`; it exports `\\u{1b}[31m\\u{9b}m\\u{202e}`"),
             || wasm(r#"(module (func (export "\1b[31m\u{9b}m\u{202e}")))"#),
         )
         .shown(),
         Case::new(
             &[69],
             "journal-function-with-an-escape",
-            refused(
+            rejected(
                 "core-module",
                 "core module does not fit the world `wasmouse:robot/robot@VERSION`: failed to decode world from module: ... is missing function `...` that is required by the module",
             ),

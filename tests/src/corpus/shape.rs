@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::case::{Case, harmless, refused};
+use super::case::{Case, harmless, invalid, rejected};
 use crate::composite::{Composite, TYPES};
 use crate::module::{Module, START_PARAMETERS, versioned, wasm};
 
@@ -16,7 +16,7 @@ pub fn cases() -> Vec<Case> {
 
 fn modules() -> Vec<Case> {
     let module = |name: &str, reason: &str, text: String| {
-        Case::new(&[54], name, refused("core-module", reason), move || {
+        Case::new(&[54], name, rejected("core-module", reason), move || {
             wasm(&text)
         })
     };
@@ -71,8 +71,7 @@ fn modules() -> Vec<Case> {
         ),
         module(
             "module-that-imports-wasi",
-            "core module imports `fd_write` from `wasi_snapshot_preview1`, which no robot may \
-             import",
+            "core module imports `fd_write` from `wasi_snapshot_preview1`, which is not available to robots",
             importing(
                 r#"(import "wasi_snapshot_preview1" "fd_write"
                 (func (param i32 i32 i32 i32) (result i32)))"#,
@@ -80,7 +79,7 @@ fn modules() -> Vec<Case> {
         ),
         module(
             "module-that-imports-an-intrinsic",
-            "core module imports `[waitable-set-new]` from `$root`, which no robot may import",
+            "core module imports `[waitable-set-new]` from `$root`, which is not available to robots",
             importing(r#"(import "$root" "[waitable-set-new]" (func (result i32)))"#),
         ),
         module(
@@ -133,7 +132,7 @@ fn changed(right: &'static str, wrong: &str) -> Vec<u8> {
 
 fn other_version(version: &str) -> Value {
     let reason = format!("the robot was built for wasmouse:robot@{version}; this host runs 0.2.x");
-    refused("other-version", &reason)
+    rejected("other-version", &reason)
 }
 
 fn exports() -> Vec<Case> {
@@ -141,7 +140,7 @@ fn exports() -> Vec<Case> {
         Case::new(&[58], name, expected, move || changed(right, wrong))
     };
     let missing = |exports: &str| {
-        refused(
+        rejected(
             "no-controller",
             &format!(
                 "the component does not export \
@@ -152,7 +151,7 @@ fn exports() -> Vec<Case> {
     const EXPORT: &str = r#"(export "wasmouse:robot/controller@VERSION" (instance $controller))"#;
     const NEXT: &str = r#"(export "next-move" (func $next-move))"#;
     let wrong_type = |reason: &str| {
-        refused(
+        rejected(
             "wrong-type",
             &format!("the component does not fit the world `robot`: {reason}"),
         )
@@ -201,16 +200,15 @@ fn exports() -> Vec<Case> {
         ),
         other(
             "next-move-renamed",
-            refused(
-                "invalid",
-                "the component is not valid: export name `next_move` is not a valid extern name: `next_move` is not in kebab case at byte ...",
+            invalid(
+                "export name `next_move` is not a valid extern name: `next_move` is not in kebab case",
             ),
             NEXT,
             r#"(export "next_move" (func $next-move))"#,
         ),
         other(
             "start-in-place-of-next-move",
-            wrong_type("the function `next-move` has another type: ..."),
+            wrong_type("the function `next-move` has the wrong type: ..."),
             NEXT,
             r#"(export "next-move" (func $start))"#,
         ),
@@ -228,11 +226,11 @@ fn importing(imports: &str) -> Vec<u8> {
 
 fn imports() -> Vec<Case> {
     let unknown = |numbers, name: &str, import: &str, text: &'static str| {
-        let reason = format!("the component imports `{import}`, which a robot does not get");
+        let reason = format!("the component imports `{import}`, which is not available to robots");
         Case::new(
             numbers,
             name,
-            refused("unknown-import", &reason),
+            rejected("unknown-import", &reason),
             move || importing(text),
         )
     };
@@ -268,7 +266,7 @@ fn imports() -> Vec<Case> {
         Case::new(
             &[59],
             "log-of-another-type",
-            refused(
+            rejected(
                 "wrong-type",
                 "...: type mismatch with parameters: expected 2-tuple, found 0-tuple",
             ),
@@ -284,7 +282,7 @@ fn imports() -> Vec<Case> {
         Case::new(
             &[59],
             "log-of-lists",
-            refused(
+            rejected(
                 "wrong-type",
                 "...: type mismatch with parameters: expected `string` found `list`",
             ),
@@ -293,7 +291,7 @@ fn imports() -> Vec<Case> {
         Case::new(
             &[59],
             "journal-with-one-function-more",
-            refused(
+            rejected(
                 "wrong-type",
                 "...: instance export `win` has the wrong type: function implementation is missing",
             ),
@@ -332,7 +330,7 @@ fn imports() -> Vec<Case> {
         Case::new(
             &[60],
             "import-by-address",
-            refused(
+            rejected(
                 "invalid",
                 "the component is not valid: import name `...` is not a valid extern name...",
             ),
@@ -341,7 +339,7 @@ fn imports() -> Vec<Case> {
         Case::new(
             &[60],
             "journal-that-is-a-module",
-            refused("wrong-type", "...: expected module found instance"),
+            rejected("wrong-type", "...: expected module found instance"),
             || {
                 wasm(&format!(
                     r#"(component {TYPES}

@@ -38,7 +38,7 @@ pub(super) fn look_alike(bytes: &[u8]) -> &'static str {
     if Engine::detect_precompiled(bytes)
         .is_some_and(|kind| matches!(kind, Precompiled::Module | Precompiled::Component))
     {
-        return "machine code precompiled by wasmtime, which is never loaded";
+        return "machine code precompiled by wasmtime, which is never accepted";
     }
     let starts = |magic: &[u8]| bytes.starts_with(magic);
     if starts(b"\x7fELF") {
@@ -52,7 +52,7 @@ pub(super) fn look_alike(bytes: &[u8]) -> &'static str {
     } else if starts(b"\0asm") {
         "WebAssembly of an unknown version"
     } else if bytes.trim_ascii_start().starts_with(b"(") {
-        "WebAssembly text (WAT), which has to be translated first"
+        "WebAssembly text (WAT), which must be converted to binary first"
     } else if std::str::from_utf8(bytes).is_ok() {
         "a text file"
     } else {

@@ -87,7 +87,7 @@ pub enum ComponentizeError {
         name: String,
     },
     /// The module imports something that a robot cannot have.
-    #[error("core module imports `{name}` from `{module}`, which no robot may import")]
+    #[error("core module imports `{name}` from `{module}`, which is not available to robots")]
     ForeignImport {
         /// The module name of the import.
         module: String,

@@ -57,9 +57,12 @@ impl Inspection {
     }
 }
 
-/// The world that a component implements, as WIT.
+/// The world that a component implements, as WIT; `None` when it cannot be decoded.
 pub fn world(component: &[u8]) -> Option<String> {
-    let decoded = wit_component::decode(component).ok()?;
+    // The decoder panics on some valid components: a function that is exported under the name
+    // of an interface, for example.
+    let decoded = std::panic::catch_unwind(|| wit_component::decode(component));
+    let decoded = decoded.ok()?.ok()?;
     let DecodedWasm::Component(resolve, world) = &decoded else {
         return None;
     };

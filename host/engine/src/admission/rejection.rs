@@ -11,7 +11,7 @@ pub enum Rejection {
     /// The file has no bytes.
     #[error("the file is empty")]
     Empty,
-    /// The file is larger than the ruleset allows.
+    /// The file is larger than the limits allow.
     #[error("the file has more than {max} bytes")]
     TooLarge {
         /// The limit in bytes.
@@ -29,13 +29,13 @@ pub enum Rejection {
     /// The robot was built for an incompatible version of the interface.
     #[error("the robot was built for wasmouse:robot@{0}; this host runs {COMPATIBLE}")]
     OtherVersion(String),
-    /// The component asks for something that a robot does not get.
-    #[error("the component imports `{0}`, which a robot does not get")]
+    /// The component imports something that is not available to robots.
+    #[error("the component imports `{0}`, which is not available to robots")]
     UnknownImport(String),
     /// The component does not export the controller.
     #[error("the component does not export `{CONTROLLER}`; it exports {exports}", exports = list(.0))]
     NoController(Vec<String>),
-    /// An import or export has another type than in the WIT.
+    /// An import or export has a type that differs from the WIT.
     #[error("the component does not fit the world `robot`: {0}")]
     WrongType(String),
     /// Its compilation took too much, or ended the process that compiled it.
@@ -51,7 +51,7 @@ pub enum Rejection {
         /// As [`Rejection::hint`] there.
         hint: String,
     },
-    /// The file holds more than the ruleset allows, before anything of it runs.
+    /// The file exceeds a limit, before anything of it runs.
     #[error("the file has {found} {what}, and the limit is {max} ({at})")]
     OverLimit {
         /// What is counted, as the words after a number.

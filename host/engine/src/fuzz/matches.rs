@@ -7,18 +7,18 @@ use crate::admission::{ComponentizeError, Rejection};
 use crate::bundled::find;
 use crate::runtime::{CompiledRobot, Runtime};
 
-struct Bench {
+struct Fixture {
     runtime: Runtime,
     flood: CompiledRobot,
     /// How flood plays on an engine that no other robot has used.
     undisturbed: Played,
 }
 
-static BENCH: LazyLock<Bench> = LazyLock::new(|| {
+static FIXTURE: LazyLock<Fixture> = LazyLock::new(|| {
     let runtime = Runtime::new(limits(), 1, None).expect("address space for one match");
     let flood = find("flood").expect("a bundled robot").component;
     let flood = runtime.admit(flood).expect("a robot");
-    Bench {
+    Fixture {
         undisturbed: play(&runtime, &flood),
         runtime,
         flood,
@@ -31,18 +31,18 @@ pub fn matches(bytes: &[u8]) -> bool {
     let Some(file) = modules::robot(bytes) else {
         return false;
     };
-    let bench = &*BENCH;
-    let robot = match bench.runtime.admit(&file) {
+    let fixture = &*FIXTURE;
+    let robot = match fixture.runtime.admit(&file) {
         Ok(robot) => robot,
         Err(rejection) => {
             check_rejection(&rejection);
             return false;
         }
     };
-    let played = play(&bench.runtime, &robot);
-    assert_eq!(play(&bench.runtime, &robot), played, "a second time");
-    let flood = play(&bench.runtime, &bench.flood);
-    assert_eq!(flood, bench.undisturbed, "another robot afterwards");
+    let played = play(&fixture.runtime, &robot);
+    assert_eq!(play(&fixture.runtime, &robot), played, "a second time");
+    let flood = play(&fixture.runtime, &fixture.flood);
+    assert_eq!(flood, fixture.undisturbed, "another robot afterwards");
     played.record.steps.total() > 0
 }
 

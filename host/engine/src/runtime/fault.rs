@@ -46,9 +46,9 @@ pub(crate) fn classify(
         // handed over: discriminants, pointers, strings, sizes.
         let message = format!("{error:#}");
         let detail = if message.contains(TOO_MUCH_COPIED) {
-            format!("handed the host more than {copied_max} bytes in one call")
+            format!("passed more than {copied_max} bytes to the host in one call")
         } else {
-            format!("returned an invalid value: {message}")
+            format!("violated the interface: {message}")
         };
         return Ok((FaultKind::InvalidAction, detail));
     };
@@ -76,12 +76,12 @@ pub(crate) fn classify(
         Trap::IndirectCallToNull => (FaultKind::BadIndirectCall, "called a null function"),
         Trap::BadSignature => (
             FaultKind::BadIndirectCall,
-            "called a function of another type",
+            "called a function of the wrong type",
         ),
         _ => {
             return Ok((
                 FaultKind::InvalidAction,
-                format!("returned an invalid value: {trap}"),
+                format!("violated the interface: {trap}"),
             ));
         }
     };

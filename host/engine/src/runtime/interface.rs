@@ -51,5 +51,7 @@ fn function(
 }
 
 fn wrong_type(name: &str, error: &wasmtime::Error) -> Rejection {
-    Rejection::WrongType(format!("the function `{name}` has another type: {error:#}"))
+    Rejection::WrongType(format!(
+        "the function `{name}` has the wrong type: {error:#}"
+    ))
 }

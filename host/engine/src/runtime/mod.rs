@@ -11,7 +11,7 @@ mod fault;
 mod guest;
 mod interface;
 mod limiter;
-mod runtime;
+mod robot;
 
 pub use backtrace::Frame;
 pub(crate) use backtrace::{FRAMES_MAX, frames};
@@ -22,4 +22,4 @@ pub use config::{ENGINE_REVISION, MATCH_SECONDS_MAX, WASMTIME_VERSION, engine_co
 pub(crate) use config::{match_epochs_max, new_compiler};
 pub(crate) use fault::classify;
 pub(crate) use guest::Guest;
-pub use runtime::{CacheUse, CompiledRobot, Runtime};
+pub use robot::{CacheUse, CompiledRobot, Runtime};

@@ -23,7 +23,7 @@ pub enum Measure {
     /// Initial elements of the largest table; what all have together is limited in
     /// the match.
     TableElements,
-    /// Components inside each other.
+    /// Nested components.
     ComponentDepth,
     /// Items of components, as written in the file.
     ComponentItems,
@@ -51,9 +51,9 @@ pub enum Measure {
     Locals,
     /// The longest function, in bytes.
     FunctionBytes,
-    /// Constructs (`block`, `loop`, `if`) inside each other in one function.
+    /// Nested constructs (`block`, `loop`, `if`) in one function.
     Nesting,
-    /// Loops inside each other in one function.
+    /// Nested loops in one function.
     LoopNesting,
     /// Values on the operand stack at the same time.
     Operands,
@@ -122,7 +122,7 @@ const ROWS: [Row; Measure::COUNT] = {
         row(
             M::ComponentDepth,
             "component_depth",
-            "components inside each other",
+            "nested components",
             |l| l.admission.component_depth_max.into(),
         ),
         row(
@@ -194,15 +194,12 @@ const ROWS: [Row; Measure::COUNT] = {
             "bytes in a function",
             |l| l.admission.function_bytes_max.into(),
         ),
-        row(M::Nesting, "nesting", "blocks inside each other", |l| {
+        row(M::Nesting, "nesting", "nested blocks", |l| {
             l.admission.nesting_max.into()
         }),
-        row(
-            M::LoopNesting,
-            "loop_nesting",
-            "loops inside each other",
-            |l| l.admission.loop_nesting_max.into(),
-        ),
+        row(M::LoopNesting, "loop_nesting", "nested loops", |l| {
+            l.admission.loop_nesting_max.into()
+        }),
         row(
             M::Operands,
             "operands",

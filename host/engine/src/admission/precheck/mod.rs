@@ -27,8 +27,8 @@
 //! | parameters and results | 200 | 19 | 14 | 18 |
 //! | locals | 12,000 | 273 | 86 | 122 |
 //! | bytes in a function | 1,048,576 | 426,843 | 54,010 | 171,628 |
-//! | blocks inside each other | 4,000 | 781 | 281 | 456 |
-//! | loops inside each other | 64 | 6 | 21 | 6 |
+//! | nested blocks | 4,000 | 781 | 281 | 456 |
+//! | nested loops | 64 | 6 | 21 | 6 |
 //! | operands | 500 | 54 | 15 | 64 |
 //! | targets of a `br_table` | 20,000 | 3,202 | 254 | 453 |
 //! | blocks of a function | 40,000 | 14,002 | 5,810 | 17,716 |

@@ -1,4 +1,4 @@
-//! What a file calls a function: for refusals, read when there is one.
+//! What a file calls a function: for rejections; read only when there is one.
 
 use wasmparser::{Encoding, ExternalKind, KnownCustom, Name, Parser, Payload};
 

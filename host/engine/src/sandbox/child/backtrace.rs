@@ -10,7 +10,7 @@ use wasmouse_core::record::{MatchKey, MatchSpec};
 use super::super::protocol::{self, Backtrace, BacktraceOrder, Hello};
 use super::super::role::{Role, SandboxStatus};
 use super::compile::{STACK_BYTES, start_compilers};
-use super::confine;
+use super::privileges;
 use super::pipes::{Pipes, read_exactly};
 use super::setup::sandboxed;
 use crate::error::InfrastructureError;
@@ -24,8 +24,8 @@ use crate::runtime::{Runtime, engine_id};
 ///
 /// When the pipes break or the machine cannot run robots.
 pub fn main() -> io::Result<()> {
-    confine::close_inherited();
-    confine::die_with_parent();
+    privileges::close_inherited();
+    privileges::die_with_parent();
     let mut pipes = Pipes::standard()?;
     let Some(order) = protocol::read::<BacktraceOrder>(&mut pipes.from)? else {
         return Ok(());
@@ -48,7 +48,7 @@ pub fn enter<W>(limits: &Limits, work: W) -> io::Result<()>
 where
     W: FnOnce(&Runtime, SandboxStatus) -> io::Result<()> + Send + 'static,
 {
-    confine::set_limits(Role::Backtrace);
+    privileges::set_limits(Role::Backtrace);
     let failed = |error: InfrastructureError| io::Error::other(error.to_string());
     let runtime = Runtime::for_backtraces(*limits).map_err(failed)?;
     let clock = runtime.clock();

@@ -7,7 +7,7 @@ use wasmtime::Engine;
 
 use super::super::protocol::{self, CompileOrder, Compiled, Examined, Hello};
 use super::super::role::{Role, SandboxStatus};
-use super::confine;
+use super::privileges;
 use super::pipes::{Pipes, read_exactly};
 use super::setup::sandboxed;
 use crate::admission::{Rejection, examine, world};
@@ -24,8 +24,8 @@ pub(super) const STACK_BYTES: usize = 16 << 20;
 ///
 /// When the pipes break or the machine cannot compile.
 pub fn main() -> io::Result<()> {
-    confine::close_inherited();
-    confine::die_with_parent();
+    privileges::close_inherited();
+    privileges::die_with_parent();
     let mut pipes = Pipes::standard()?;
     let Some(order) = protocol::read::<CompileOrder>(&mut pipes.from)? else {
         return Ok(());
@@ -53,7 +53,7 @@ pub fn enter<W>(limits: &Limits, work: W) -> io::Result<()>
 where
     W: FnOnce(&Engine, SandboxStatus) -> io::Result<()> + Send + 'static,
 {
-    confine::set_limits(Role::Compile);
+    privileges::set_limits(Role::Compile);
     let failed = |error: InfrastructureError| io::Error::other(error.to_string());
     let engine = new_compiler(limits).map_err(failed)?;
     sandboxed(

@@ -2,12 +2,12 @@
 
 mod backtrace;
 mod compile;
-mod confine;
+mod privileges;
 mod pipes;
 pub(super) mod run;
 mod setup;
 
 pub use backtrace::{enter as enter_backtrace, main as backtrace_main};
 pub use compile::{enter as enter_compile, main as compile_main};
-pub use confine::{close_inherited, die_with_parent};
+pub use privileges::{close_inherited, die_with_parent};
 pub use run::{enter as enter_run, main as run_main, main_with as run_main_with};

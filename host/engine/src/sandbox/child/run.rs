@@ -13,7 +13,7 @@ use super::super::protocol::{
     RunFailure, Setup,
 };
 use super::super::role::{Role, SandboxStatus};
-use super::confine;
+use super::privileges;
 use super::pipes::{Pipes, read_exactly};
 use super::setup::sandboxed;
 use crate::admission::Rejection;
@@ -42,8 +42,8 @@ pub fn main() -> io::Result<()> {
 /// As [`main`].
 #[doc(hidden)]
 pub fn main_with(before_match: &'static (dyn Fn(u64) + Sync)) -> io::Result<()> {
-    confine::close_inherited();
-    confine::die_with_parent();
+    privileges::close_inherited();
+    privileges::die_with_parent();
     let mut pipes = Pipes::standard()?;
     let Some(setup) = protocol::read::<Setup>(&mut pipes.from)? else {
         return Ok(());
@@ -73,7 +73,7 @@ pub fn enter<W>(limits: &Limits, work: W) -> io::Result<()>
 where
     W: FnOnce(Runtime, SandboxStatus) -> io::Result<()> + Send + 'static,
 {
-    confine::set_limits(Role::Run);
+    privileges::set_limits(Role::Run);
     let failed = |error: InfrastructureError| io::Error::other(error.to_string());
     // The engine opens a file of its own, so it is made before files are forbidden.
     let runtime = Runtime::without_clock(*limits, 1, None).map_err(failed)?;

@@ -5,7 +5,7 @@ use std::sync::mpsc;
 use std::thread;
 
 use super::super::role::{Role, SandboxStatus};
-use super::confine;
+use super::privileges;
 
 /// Drops the privileges that the role does not need, and then works on a thread with a stack
 /// of that many bytes. Whatever needs files has to exist by now; `threads` starts the other
@@ -27,7 +27,7 @@ pub(super) fn sandboxed<W>(
 where
     W: FnOnce(SandboxStatus) -> io::Result<()> + Send + 'static,
 {
-    let landlock = confine::forbid_files();
+    let landlock = privileges::forbid_files();
     threads()?;
     let (begin, wait) = mpsc::sync_channel(1);
     let worker = thread::Builder::new()
@@ -37,7 +37,7 @@ where
             Ok(sandbox) => work(sandbox),
             Err(_) => Ok(()),
         })?;
-    let seccomp = confine::forbid_system_calls(role);
+    let seccomp = privileges::forbid_system_calls(role);
     // The thread is waiting for this and nothing else, so the send cannot fail.
     let _ = begin.send(SandboxStatus { landlock, seccomp });
     worker

@@ -194,8 +194,11 @@ fn rejection(exit: &WorkerExit) -> Rejection {
     } else if exit.is_out_of_processor_time() {
         format!("takes more than {COMPILE_CPU_SECONDS} s of processor time")
     } else if exit.stderr.contains("memory allocation of") {
-        format!("takes more than {COMPILE_MEMORY_BYTES} bytes of memory")
+        format!(
+            "takes more than {} MiB of memory",
+            COMPILE_MEMORY_BYTES >> 20
+        )
     } else {
-        format!("crashes the compiler: {exit}")
+        format!("crashes the compiler ({exit})")
     })
 }

@@ -1,6 +1,7 @@
 //! The side of the supervisor: starts and watches worker processes, and checks their reports.
 
 mod admit;
+mod api;
 pub(super) mod check;
 mod compiler;
 mod monitor;
@@ -8,8 +9,7 @@ mod play;
 mod pool;
 mod process;
 mod robot;
-mod supervisor;
 
 pub use process::{Executable, PATIENCE, WorkerOptions};
 pub use robot::SandboxedRobot;
-pub use supervisor::Supervisor;
+pub use api::Supervisor;

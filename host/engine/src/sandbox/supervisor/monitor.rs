@@ -1,6 +1,6 @@
 //! [`Monitor`]: the thread that starts workers and kills those that take too long.
 //!
-//! WorkerOptions die with the thread that started them, so that thread has to live as long
+//! Workers die with the thread that started them, so that thread has to live as long
 //! as the supervisor; threads that play matches come and go.
 
 use std::io;

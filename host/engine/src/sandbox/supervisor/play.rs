@@ -199,7 +199,7 @@ impl Pool {
 /// The record of a match that crashes its worker each time.
 fn crashed(exit: &WorkerExit, spec: &MatchSpec, recording: &mut Recording) -> MatchRecord {
     recording.clear(&spec.rules.sandbox);
-    let detail = format!("crashed the process that it ran in, twice: {exit}");
+    let detail = format!("crashed its worker process twice: {exit}");
     let transcript = &mut recording.transcript;
     transcript.end_with_fault(FaultKind::Crash, Phase::Unknown, detail);
     let result = replay(&spec.maze, &spec.rules.game, transcript)

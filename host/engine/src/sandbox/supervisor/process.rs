@@ -312,9 +312,9 @@ impl WorkerExit {
 impl fmt::Display for WorkerExit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.expired {
-            write!(f, "it was killed after its deadline")?;
+            write!(f, "timed out and was killed")?;
         } else if let Some(status) = self.status {
-            write!(f, "it exited with {status}")?;
+            write!(f, "{status}")?;
         } else {
             write!(f, "{}", self.error)?;
         }

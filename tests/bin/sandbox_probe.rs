@@ -1,5 +1,5 @@
-//! A worker that does not work but tries what it must not: the real start of each role,
-//! and then a line for each attempt, `NAME: ERROR` or `NAME: DONE`.
+//! A worker that tries what the sandbox forbids: the real sandbox setup of each role, and then a
+//! line for each attempt, `NAME: ERROR` or `NAME: DONE`.
 //!
 //! Called as the real one is (`worker ROLE`), with the process to signal as one more
 //! argument, and perhaps a descriptor that it should not have inherited.
@@ -14,22 +14,22 @@ use std::{env, fs, ptr, thread};
 
 use rustix::mm::{MapFlags, MprotectFlags, ProtFlags, mmap_anonymous, mprotect};
 use rustix::process::{Pid, Signal, kill_process};
-use wasmouse::robot::worker::{self, Sandbox};
-use wasmouse::sim::Ruleset;
+use wasmouse_engine::Limits;
+use wasmouse_engine::sandbox::{SandboxStatus, child};
 
 fn main() -> io::Result<()> {
     let arguments: Vec<String> = env::args().collect();
     let role = arguments.get(2).map_or("", String::as_str);
     let parent = number(&arguments, 3).and_then(Pid::from_raw);
     let inherited = number(&arguments, 4);
-    worker::confine::close_inherited();
-    worker::confine::die_with_parent();
-    let rules = Ruleset::default();
-    let with = move |sandbox: Sandbox| attempts(sandbox, parent, inherited);
+    child::close_inherited();
+    child::die_with_parent();
+    let limits = Limits::default();
+    let with = move |sandbox| attempts(sandbox, parent, inherited);
     match role {
-        "play" => worker::enter_play(&rules, move |_, sandbox| with(sandbox)),
-        "compile" => worker::enter_compile(&rules.limits, move |_, sandbox| with(sandbox)),
-        "explain" => worker::enter_explain(&rules.limits, move |_, sandbox| with(sandbox)),
+        "run" => child::enter_run(&limits, move |_, sandbox| with(sandbox)),
+        "compile" => child::enter_compile(&limits, move |_, sandbox| with(sandbox)),
+        "backtrace" => child::enter_backtrace(&limits, move |_, sandbox| with(sandbox)),
         other => Err(io::Error::other(format!("no role `{other}`"))),
     }
 }
@@ -38,7 +38,7 @@ fn number(arguments: &[String], index: usize) -> Option<i32> {
     arguments.get(index)?.parse().ok()
 }
 
-fn attempts(sandbox: Sandbox, parent: Option<Pid>, inherited: Option<i32>) -> io::Result<()> {
+fn attempts(sandbox: SandboxStatus, parent: Option<Pid>, inherited: Option<i32>) -> io::Result<()> {
     let (landlock, seccomp) = (sandbox.landlock, sandbox.seccomp);
     let mut lines = format!("landlock: {landlock}\nseccomp: {seccomp}\n");
     let mut attempt = |name: &str, result: io::Result<()>| {

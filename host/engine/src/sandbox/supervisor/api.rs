@@ -150,7 +150,7 @@ impl Supervisor {
             self.pool.starter.check(sandbox).map_err(io::Error::other)?;
             process.receive()
         })();
-        // A backtrace is a courtesy: whatever went wrong, the verdict stands.
+        // A backtrace is optional: whatever goes wrong here, the verdict stands.
         Ok(match backtrace {
             Ok(Backtrace {
                 fault: Some((kind, frames)),

@@ -26,7 +26,7 @@ pub fn close_inherited() {
 /// Has the kernel kill this process when the thread that started it ends, also when
 /// that was killed.
 pub fn die_with_parent() {
-    // Where the kernel refuses, or the parent has ended by now, the end of the input
+    // Where the kernel does not allow it, or the parent has ended by now, the end of the input
     // still ends the worker.
     let _ = set_parent_process_death_signal(Some(Signal::KILL));
 }
@@ -58,14 +58,14 @@ pub fn forbid_system_calls(role: Role) -> bool {
 /// A forbidden call fails with EPERM.
 fn filter(role: Role) -> Option<BpfProgram> {
     let arch: TargetArch = std::env::consts::ARCH.try_into().ok()?;
-    let refuse = SeccompAction::Errno(libc::EPERM.cast_unsigned());
-    SeccompFilter::new(rules(role)?, refuse, SeccompAction::Allow, arch)
+    let deny = SeccompAction::Errno(libc::EPERM.cast_unsigned());
+    SeccompFilter::new(rules(role)?, deny, SeccompAction::Allow, arch)
         .ok()?
         .try_into()
         .ok()
 }
 
-/// Calls that both roles need, with any arguments: to talk over the descriptors they
+/// Calls that both roles need, with any arguments: to use the descriptors they
 /// have, for memory, for waiting on their own threads, to end.
 const ALWAYS: [libc::c_long; 26] = [
     libc::SYS_read,
