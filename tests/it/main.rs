@@ -44,6 +44,8 @@ mod prebuilt;
 mod precheck;
 /// The README's tutorial and examples, run as they stand there.
 mod readme;
+/// `cargo xtask reference`: the numbers on its page.
+mod reference;
 /// Files that are no robots, and the reasons.
 mod refusals;
 /// The example robots, natively, in mazes of every size and shape.
@@ -56,8 +58,6 @@ mod shared;
 mod solver;
 /// Closed pipes, full disks and terminals.
 mod streams;
-/// `wasmouse study` and the page that it writes.
-mod study;
 /// Robots that fail, and the verdicts on them.
 mod verdicts;
 /// Recorded results played again, and contests played twice.

@@ -10,6 +10,7 @@ pub mod bindings;
 pub mod corpus;
 pub mod fuzz;
 pub mod manifest;
+pub mod reference;
 pub mod robots;
 pub mod sources;
 pub mod step;

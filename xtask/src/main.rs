@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use xtask::{bindings, corpus, fuzz, repository, robots, verify};
+use xtask::{bindings, corpus, fuzz, reference, repository, robots, verify};
 
 /// Automation for the wasmouse repository.
 #[derive(Parser)]
@@ -45,6 +45,13 @@ enum Command {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<OsString>,
     },
+    /// Play the bundled robots and write docs/REFERENCE.md; `--help` lists the options.
+    #[command(disable_help_flag = true)]
+    Reference {
+        /// Arguments for the program `reference`.
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<OsString>,
+    },
 }
 
 fn main() -> ExitCode {
@@ -56,6 +63,7 @@ fn main() -> ExitCode {
         Command::Robots { check: true } => robots::check(&root),
         Command::Corpus { arguments } => corpus::run(&root, &arguments),
         Command::Fuzz { arguments } => fuzz::run(&root, &arguments),
+        Command::Reference { arguments } => reference::run(&root, &arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
