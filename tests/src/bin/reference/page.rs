@@ -253,7 +253,7 @@ impl Page {
         let mut table = Table::new(["robot", "unfinished mazes"], 2);
         for (robot, entrant) in self.entrants.iter().enumerate() {
             let names = sets.iter().flat_map(|set| &set.robots[robot].unfinished);
-            let names: Vec<String> = names.map(|it| code(it)).collect();
+            let names: Vec<String> = names.map(code).collect();
             let cell = match names.len() {
                 0 => continue,
                 1..=UNFINISHED_MAX => names.join(", "),
@@ -268,7 +268,7 @@ impl Page {
     fn identity(&self) -> String {
         let mut mazes = Table::new(["mazes", "digest", "count"], 2);
         for OfficialMaze { maze, .. } in self.official.iter().flatten() {
-            mazes.row([code(&maze.name), code(&maze.digest), "1".to_owned()]);
+            mazes.row([code(&maze.name), code(maze.digest), "1".to_owned()]);
         }
         let generated = self.generated.iter().map(|(_, set)| (code(&set.name), set));
         let competition = self.competition.iter().flat_map(|(sets, _)| sets);
