@@ -19,7 +19,7 @@ const ORDER: [Heading; 4] = [Heading::Up, Heading::Left, Heading::Down, Heading:
 /// The number of a square that has not been opened.
 const CLOSED: u16 = u16::MAX;
 
-/// Numbers forevery square, with reusable buffers.
+/// Numbers for every square, with reusable buffers.
 ///
 /// ```
 /// use wasmouse_sdk::{Cell, CellSet, Expansion, Heading, Hop, Map, View};
@@ -85,7 +85,7 @@ impl Expansion {
     /// the same from both squares. It must be `false` for the perimeter.
     ///
     /// Squares are expanded by rank, the smallest first, and among equals in the order in
-    /// which they were opened. `rank` is called once forevery square, with the number of
+    /// which they were opened. `rank` is called once for every square, with the number of
     /// cells walked to it. A square is opened once, from wherever it is reached first, and
     /// its neighbours in the order up, left, down, right. The expansion ends when a target is
     /// expanded. The path back always goes to the neighbour with the smallest number from

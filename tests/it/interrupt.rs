@@ -144,7 +144,7 @@ fn an_interrupted_contest_is_ranked_over_the_mazes_that_all_have_played() {
     assert!(stderr.ends_with(&message), "{stderr}");
 }
 
-/// The second playing is on two threads where the first was on one.
+/// The first time is on one job and so in process; the second is on two, and so in workers.
 #[test]
 fn an_interrupted_reproduction_says_so() {
     let robot = ["run", "random", "gen:tree:20:1..=2", "--repeat", "3000"];
@@ -156,7 +156,7 @@ fn an_interrupted_reproduction_says_so() {
         .concat(),
     );
     wait("the second time begins", || {
-        has_thread(child.id(), "matches-1")
+        has_thread(child.id(), "worker-monitor")
     });
     interrupt(&child);
     let output = child.wait_with_output().expect("the program ends");

@@ -40,12 +40,12 @@ mod matches;
 mod memory;
 /// Minnett's robot in generated mazes.
 mod minnett;
-/// Robot projects, and files of results.
-mod projects;
 /// The prebuilt robots against their sources and their manifest.
 mod prebuilt;
 /// The check before compilation: limits, bombs, proposals.
 mod precheck;
+/// Robot projects, and files of results.
+mod projects;
 /// The commands of the README.
 mod readme;
 /// The page that compares the bundled robots with the published reports.

@@ -35,9 +35,16 @@ fn a_project_is_built_and_played() {
     assert!(status.success(), "{stderr}");
     let component = folder.join("mouse/mouse.wasm");
     assert!(!component.exists(), "`new` builds nothing");
-    let Ran { status, stdout, stderr } = ran(&mut command(folder, "run mouse test_maze_01"));
+    let Ran {
+        status,
+        stdout,
+        stderr,
+    } = ran(&mut command(folder, "run mouse test_maze_01"));
     assert!(status.success(), "{stdout}{stderr}");
-    assert!(stdout.contains("mouse ") && stdout.contains("finished"), "{stdout}");
+    assert!(
+        stdout.contains("mouse ") && stdout.contains("finished"),
+        "{stdout}"
+    );
     assert!(component.is_file(), "the component is beside its sources");
 
     // A component that is as new as its sources is played without a word about it.
@@ -57,11 +64,19 @@ fn a_project_is_built_and_played() {
 fn a_file_of_json_lines_has_a_match_in_each_line() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let folder = folder.path();
-    let play = "run flood dfs gen:tree:12:1..=6 --html page.html --json -o";
+    let play = "run flood dfs gen:tree:12:1..=6 --html page.html --json --force -o";
     let (lines, whole) = (format!("{play} all.jsonl"), format!("{play} all.json"));
-    let Ran { status, stdout, stderr } = ran(&mut command(folder, &lines));
+    let Ran {
+        status,
+        stdout,
+        stderr,
+    } = ran(&mut command(folder, &lines));
     assert!(status.success(), "{stderr}");
-    assert_eq!(ran(&mut command(folder, &whole)).stdout, stdout, "--json stays as it is");
+    assert_eq!(
+        ran(&mut command(folder, &whole)).stdout,
+        stdout,
+        "--json stays as it is"
+    );
     let file = fs::read_to_string(folder.join("all.json")).expect("results");
     assert_eq!(file, stdout, "-o has what --json prints");
     let results: Value = serde_json::from_str(&file).expect("JSON");
@@ -104,9 +119,17 @@ fn a_failed_contest_keeps_the_old_results() {
     }
     let line = "run flood test_maze_01 -o old.json --html old.html --force";
     assert!(ran(&mut command(folder, line)).status.success());
-    assert!(fs::read_to_string(folder.join("old.json")).expect("a file").starts_with('{'));
+    assert!(
+        fs::read_to_string(folder.join("old.json"))
+            .expect("a file")
+            .starts_with('{')
+    );
     let left: Vec<_> = fs::read_dir(folder).expect("a folder").flatten().collect();
-    assert_eq!(left.len(), 4, "no temporary file is left, only the cache: {left:?}");
+    assert_eq!(
+        left.len(),
+        4,
+        "no temporary file is left, only the cache: {left:?}"
+    );
 }
 
 #[test]

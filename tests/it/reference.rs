@@ -156,9 +156,10 @@ fn competition_mazes_are_listed_by_entrances() {
 fn all_official_mazes_are_compared() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let mut command = reference(folder.path());
-    command
-        .arg("rai:full")
-        .env("WASMOUSE_SHARED", shared().canonicalize().expect("a folder"));
+    command.arg("rai:full").env(
+        "WASMOUSE_SHARED",
+        shared().canonicalize().expect("a folder"),
+    );
     let (page, stderr) = page(folder.path(), &mut command);
     check(
         &page,

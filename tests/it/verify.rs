@@ -235,7 +235,12 @@ fn changed_values_are_named() {
         1,
         "summary.standings.lines[",
     );
-    check("/contest/robots/1/variant", json!(3), 1, "contest");
+    check(
+        "/contest/robots/1/variant",
+        json!(3),
+        1,
+        "summary.matches: recorded 12, found 8",
+    );
     check(
         "/contest/robots/3/rejection/reason",
         json!("x"),

@@ -434,21 +434,29 @@ impl LocalExecutor {
     }
 
     fn for_trust(&self, trust: Trust) -> Result<&dyn Executor, InfrastructureError> {
+        let is_trusted = trust == Trust::Trusted;
         match &self.isolation {
-            Isolation::Workers(workers) if trust == Trust::Untrusted || self.matches > 1 => {
-                let executor = get_or_try_init(&self.sandboxed, || {
-                    let (rules, cache) = (Arc::clone(&self.rules), self.cache.clone());
-                    Sandboxed::new(rules, self.limits, workers.clone(), cache)
-                })?;
-                Ok(executor)
+            Isolation::Workers(workers) if !is_trusted || self.matches > 1 => {
+                match self.sandboxed(workers) {
+                    // Trusted robots run in workers for speed, and need no sandbox.
+                    Err(InfrastructureError::IncompleteSandbox { .. }) if is_trusted => {}
+                    executor => return executor,
+                }
             }
-            Isolation::Workers(_) | Isolation::None => {
-                let executor = get_or_try_init(&self.in_process, || {
-                    InProcess::new(self.limits, self.matches, self.cache.clone())
-                })?;
-                Ok(executor)
-            }
+            Isolation::Workers(_) | Isolation::None => {}
         }
+        let executor = get_or_try_init(&self.in_process, || {
+            InProcess::new(self.limits, self.matches, self.cache.clone())
+        })?;
+        Ok(executor)
+    }
+
+    fn sandboxed(&self, workers: &WorkerOptions) -> Result<&dyn Executor, InfrastructureError> {
+        let executor = get_or_try_init(&self.sandboxed, || {
+            let (rules, cache) = (Arc::clone(&self.rules), self.cache.clone());
+            Sandboxed::new(rules, self.limits, workers.clone(), cache)
+        })?;
+        Ok(executor)
     }
 
     /// The executor that admitted a robot.

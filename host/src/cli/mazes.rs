@@ -513,7 +513,7 @@ mod tests {
         check_error(
             "gen:tree:13:1",
             Legality::Contest,
-            "error: failed to generate `SPEC`: dimension: expected an even number from 12 to 20, \
+            "error: failed to generate `SPEC`: size: expected an even number from 12 to 20, \
              or a range such as `12..=20`, found `13`",
         );
         let twice = load(
@@ -574,8 +574,8 @@ mod tests {
             &spec(&folder, "open.txt"),
             Legality::Contest,
             "error: maze `SPEC` breaks 2 contest rules:\n  \
-             the dimension is an even number from 12 to 20: it is 3\n  \
-             the start is open at the top only: (0, 0) is open up, right\n\n\
+             the size must be an even number from 12 to 20: it is 3\n  \
+             the start must be open at the top only: (0, 0) is open up, right\n\n\
              hint: --lenient accepts it",
         );
     }

@@ -19,14 +19,14 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/champion.wasm"),
-        sha256: "6de2a44a9c7f9fe190f1c33fabcf20fcf5b8f4f6525fbc37c2f66b2884c2802d",
+        sha256: "fbb608bf933f9276872c2929f03350c6497247707ad8d342cda5b9020d838e31",
     },
     BundledRobot {
         name: "count-expansion",
         description: "Lobato's count expansion, the second benchmark of his report.",
         variants: &[],
         component: include_bytes!("../../../../example-robots/prebuilt/count-expansion.wasm"),
-        sha256: "2f19f89e9cef1afb5ecfa614b8bced3834ad200d61b7701266638a6adee61cb7",
+        sha256: "913cf6bae3329fe1ec4268fd96fc4af4b950626f19c5c21ddb4b7ea2cf687d56",
     },
     BundledRobot {
         name: "dfs",
@@ -49,7 +49,7 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/dfs.wasm"),
-        sha256: "742e6d7318e06824306a44b8d5b8bf00a7bad277c82144a991f9984b61cc36e5",
+        sha256: "a9d9024d32453eec9c18519ce525d521f27e0bc02865ad25bf68ee00c9e449fa",
     },
     BundledRobot {
         name: "flood",
@@ -67,7 +67,7 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/flood.wasm"),
-        sha256: "e8a179b0968b4ac5ed72d8bc026c92577992ad221ddaf2e823d84ad73f96c162",
+        sha256: "eb792326a906b75f3d6948bfddf25541b25b5ca994a972129475fd745fb8ce2e",
     },
     BundledRobot {
         name: "lobato",
@@ -100,7 +100,7 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/lobato.wasm"),
-        sha256: "f5292a2f840c0c372b9ccf3866e61e39e23ba16af24232e5dd72cf8fde9cffe4",
+        sha256: "249a2aa53d63b13418a21c8df255b9eb2b9d05d54f888bdb7f48f184163a3295",
     },
     BundledRobot {
         name: "minnett",
@@ -133,7 +133,7 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/minnett.wasm"),
-        sha256: "941a89b597eb4718da4cedabfc406ff1854953d6bbef262ae5f86344c68cc668",
+        sha256: "63707be398fcc4a93d6082ae7936477dc65289d1c4f81fb6f22aad29ac18bed3",
     },
     BundledRobot {
         name: "rai",
@@ -166,14 +166,14 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/rai.wasm"),
-        sha256: "cc02728a45f6803205e5ee46d1560a261bfd3dcaa7ede8ecb4d18f86fd6207e2",
+        sha256: "24f5daa7e3757d97f5e2915cf66cef3d866b0f21aef5d1df280fd17730607813",
     },
     BundledRobot {
         name: "random",
         description: "Lobato's random walk, the first benchmark of his report.",
         variants: &[],
         component: include_bytes!("../../../../example-robots/prebuilt/random.wasm"),
-        sha256: "72b055b75ec022e37795f70b891cd807c487a99a2cd9dc176f935e0982031cb5",
+        sha256: "6af2438f7a76a2c0f0f9c08c0dfad86ae9a903065893ba05d04f9a67e3423a9a",
     },
     BundledRobot {
         name: "wall-follower",
@@ -191,6 +191,6 @@ pub(super) const ROBOTS: &[BundledRobot] = &[
             },
         ],
         component: include_bytes!("../../../../example-robots/prebuilt/wall-follower.wasm"),
-        sha256: "16e640030e44dd370a5ec31a894b7213f7d55fcbc9aa97a398988fe6a8946804",
+        sha256: "de37677dcfc16547fc0493c0f52b59e4c719ef83d6204a48dd551b4cc54088f7",
     },
 ];

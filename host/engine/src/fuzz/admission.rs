@@ -35,7 +35,6 @@ pub fn admission(bytes: &[u8]) -> bool {
 pub(super) fn seeds() -> Vec<Vec<u8>> {
     use crate::bundled::bundled;
 
-    let parse = |text: &str| wat::parse_str(text).expect("valid text");
     let module = super::modules::parse_robot("", "");
     let logging = super::modules::parse_robot(
         &format!(r#"(import "{JOURNAL_IMPORT}" "log" (func $log (param i32 i32 i32)))"#),
@@ -43,18 +42,6 @@ pub(super) fn seeds() -> Vec<Vec<u8>> {
     );
     let component = |module: &[u8]| crate::admission::componentize(module).expect("a robot");
     let mut seeds = vec![component(&module), component(&logging), module, logging];
-    // A component of the largest variety: types, an inner component, aliases, instances.
-    seeds.push(parse(
-        r#"(component
-            (type $cell (record (field "x" u32) (field "y" (option u8))))
-            (component $inner
-                (import "f" (func $f (param "text" string)))
-                (export "g" (func $f)))
-            (core module $m (memory (export "memory") 1) (table 1 funcref)
-                (func (export "f") (param i32 i32)))
-            (core instance $i (instantiate $m))
-            (alias core export $i "memory" (core memory $memory)))"#,
-    ));
     let smallest = bundled().iter().min_by_key(|robot| robot.component.len());
     seeds.extend(smallest.map(|robot| robot.component.to_vec()));
     seeds

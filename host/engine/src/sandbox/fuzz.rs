@@ -111,7 +111,7 @@ fn is_read<T: Debug + Serialize + DeserializeOwned>(mut frame: &[u8]) -> bool {
 /// Reads a frame from a sender that never stops: only as much is taken as a frame may have.
 /// What was read is written and read the same.
 fn read<T: Debug + Serialize + DeserializeOwned>(from: &mut &[u8]) -> io::Result<Option<T>> {
-    let mut endless = from.chain(io::repeat(0)).take(u64::MAX);
+    let mut endless = (*from).chain(io::repeat(0)).take(u64::MAX);
     let taken = protocol::read::<T>(&mut endless);
     let bytes = u64::MAX - endless.limit();
     assert!(bytes <= 4 + FRAME_BYTES_MAX as u64, "{bytes} bytes taken");

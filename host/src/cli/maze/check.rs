@@ -205,7 +205,7 @@ mod tests {
         (text, exit(&checked, lenient), survey(&checked))
     }
 
-    const RULE: &str = "  the start is open at the top only: (0, 0) is open up, right\n";
+    const RULE: &str = "  the start must be open at the top only: (0, 0) is open up, right\n";
 
     #[test]
     fn the_worst_maze_decides_the_exit_code() {
@@ -252,7 +252,7 @@ mod tests {
         let survey = survey(&checked);
         let full: serde_json::Value =
             serde_json::from_str(&json(&checked, false, &survey)).expect("JSON");
-        assert_eq!(full["schema"], 1);
+        assert_eq!(full["version"], 2);
         assert_eq!(full["mazes"][0]["legal"], true);
         assert_eq!(full["mazes"][0]["format"], "udacity");
         let broken = &full["mazes"][1]["violations"][0];

@@ -260,7 +260,7 @@ mod tests {
             ),
             (
                 "tree --size 13",
-                "error: cannot generate `tree`: dimension: expected an even number from 12 to 20, or a range such as `12..=20`, found `13`",
+                "error: cannot generate `tree`: size: expected an even number from 12 to 20, or a range such as `12..=20`, found `13`",
             ),
             (
                 "tree --count 0",
@@ -291,7 +291,7 @@ mod tests {
         let failure = specification(&args("gen:tree:16")).expect_err("no seed");
         assert_eq!(
             failure.to_string(),
-            "error: failed to generate `gen:tree:16`: expected `gen:KIND:DIMENSION:SEED`, found `gen:tree:16`"
+            "error: failed to generate `gen:tree:16`: expected `gen:KIND:SIZE:SEED`, found `gen:tree:16`"
         );
         assert_eq!(failure.exit(), Exit::Input);
     }

@@ -7,8 +7,8 @@ use wasmtime::Engine;
 
 use super::super::protocol::{self, CompileOrder, Compiled, Examined, Hello};
 use super::super::role::{Role, SandboxStatus};
-use super::privileges;
 use super::pipes::{Pipes, read_exactly};
+use super::privileges;
 use super::setup::sandboxed;
 use crate::admission::{Rejection, examine, world};
 use crate::error::InfrastructureError;

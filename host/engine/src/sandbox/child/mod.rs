@@ -2,8 +2,8 @@
 
 mod backtrace;
 mod compile;
-mod privileges;
 mod pipes;
+mod privileges;
 pub(super) mod run;
 mod setup;
 

@@ -13,8 +13,8 @@ use super::super::protocol::{
     RunFailure, Setup,
 };
 use super::super::role::{Role, SandboxStatus};
-use super::privileges;
 use super::pipes::{Pipes, read_exactly};
+use super::privileges;
 use super::setup::sandboxed;
 use crate::admission::Rejection;
 use crate::error::InfrastructureError;

@@ -10,6 +10,6 @@ mod pool;
 mod process;
 mod robot;
 
+pub use api::Supervisor;
 pub use process::{Executable, PATIENCE, WorkerOptions};
 pub use robot::SandboxedRobot;
-pub use api::Supervisor;
