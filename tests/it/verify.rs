@@ -288,7 +288,7 @@ fn changed_values_are_named() {
         "/matches/0/key/seed",
         json!(7),
         3,
-        "the id of a match is not the digest of its key",
+        "the id of a match does not match its key",
     );
     let digest = json["matches"][1]["transcript"].clone();
     check(

@@ -25,7 +25,7 @@ pub enum Found<T> {
     /// Something has its name and another content, with that digest.
     Changed(Digest),
     /// Nothing is there.
-    NotFound,
+    Nothing,
 }
 
 /// A robot that was found.
@@ -85,7 +85,7 @@ impl Robots {
         let mut bundled = bundled_robots().iter();
         match bundled.find(|it| it.name == name) {
             Some(found) => Found::Changed(digest_of(found)),
-            None => Found::NotFound,
+            None => Found::Nothing,
         }
     }
 
@@ -159,7 +159,7 @@ impl Mazes {
             return Found::Changed(*digest);
         }
         let Some(generated) = generated(&entry.name) else {
-            return Found::NotFound;
+            return Found::Nothing;
         };
         match generated.generate().digest() {
             digest if digest == entry.digest => Found::Same(MazeSource::Generated(generated)),

@@ -171,7 +171,7 @@ impl Required {
                 recorded: Some(digest.to_string().into()),
                 found: Some(other.to_string().into()),
             }),
-            Found::Same(_) | Found::NotFound => self.not_found.push(NotFound {
+            Found::Same(_) | Found::Nothing => self.not_found.push(NotFound {
                 kind,
                 name: name.to_owned(),
                 digest,

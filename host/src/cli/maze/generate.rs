@@ -272,7 +272,7 @@ mod tests {
             ),
             (
                 "tree --count 100001",
-                "error: cannot generate `tree`: seed: expected ranges that make at most 100000 mazes, found 100001",
+                "error: cannot generate `tree`: seed: expected ranges for at most 100000 mazes, found 100001",
             ),
             (
                 "gen:tree:16:1 --seed 2",

@@ -14,6 +14,7 @@ use super::super::protocol::{Backtrace, BacktraceOrder};
 use super::super::role::{COMPILE_CPU_SECONDS, Role, SandboxStatus};
 use super::admit::Admitter;
 use super::monitor::Monitor;
+use super::play::Sink;
 use super::pool::Pool;
 use super::process::{Process, Starter, WorkerOptions};
 use super::robot::SandboxedRobot;
@@ -99,10 +100,7 @@ impl Supervisor {
         robot: &SandboxedRobot,
         specs: &[MatchSpec],
         recording: &mut Recording,
-        sink: &mut dyn FnMut(
-            Result<MatchRecord, InfrastructureError>,
-            &Recording,
-        ) -> ControlFlow<()>,
+        sink: &mut Sink<'_>,
     ) -> ControlFlow<()> {
         self.pool.play(robot, specs, recording, sink)
     }

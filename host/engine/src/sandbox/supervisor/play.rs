@@ -27,7 +27,7 @@ const BATCH_MAX: usize = 64;
 const TRIES: u32 = 4;
 
 /// Gets what came of each match, in order, and says whether to go on.
-type Sink<'a> =
+pub type Sink<'a> =
     dyn FnMut(Result<MatchRecord, InfrastructureError>, &Recording) -> ControlFlow<()> + 'a;
 
 impl Pool {
