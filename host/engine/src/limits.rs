@@ -33,9 +33,8 @@ impl Limits {
 /// Compiling cannot be interrupted and takes time and memory that grow with the
 /// square or the cube of some sizes, so files of a few KB can take minutes and
 /// gigabytes. Each limit is well above what robots in Rust, JavaScript (QuickJS,
-/// StarlingMonkey) and Python have been seen to need; the table is in the
-/// documentation of
-/// [`precheck`](super::precheck). Times are of one 2026 x86-64 core.
+/// StarlingMonkey) and Python have been seen to need; `admission/precheck/mod.rs` has the
+/// table. Times are of one 2026 x86-64 core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AdmissionLimits {
