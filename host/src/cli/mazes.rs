@@ -25,9 +25,9 @@ use crate::report::escape::for_terminal;
 pub const SPECIFICATION_HELP: &str = "\
 A maze is one of, in this order:
   -              standard input
-  gen:tree:16:7  a generated maze: gen:KIND:DIMENSION:SEED with the kind division,
-                 tree (also tree,loops=PERCENT), braid or stretches; dimension and
-                 seed may be ranges such as 12..=20 and 1..=100, for many mazes
+  gen:tree:16:7  a generated maze: gen:KIND:SIZE:SEED with the kind division,
+                 tree (also tree,loops=PERCENT), braid or stretches; size and seed
+                 may be ranges such as 12..=20 and 1..=100, for many mazes
   test_maze_01   the name of a bundled maze
   a.txt          a file in any format: udacity, competition, map, num,
                  blocks

@@ -29,8 +29,8 @@ A robot is one of:
   bot.wasm       a component, or a core module that can be turned into one
   submissions    a folder: all its .wasm files by name, without subfolders
   my-robot       a robot project (a folder with a Cargo.toml): it is built first
-  flood:certain  any of these with a variant behind it, by number or, for bundled
-                 robots, by name; 0 without
+  flood:certain  any of these followed by a variant: its number or, for bundled
+                 robots, its name (default: 0)
   ann=bot.wasm   a file, with the name that results call it";
 
 /// A robot that the command line names, not yet read.

@@ -28,8 +28,8 @@ pub struct SetupArgs {
 #[derive(clap::Args, Debug)]
 pub struct EngineArgs {
     /// Number of matches to play in parallel [default: number of cores]
-    #[arg(long, short, value_name = "N")]
-    jobs: Option<NonZeroUsize>,
+    #[arg(long, short, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: Option<u16>,
     /// Cache directory for compiled robots [default: the user's cache directory]
     #[arg(long, value_name = "DIR", env = "WASMOUSE_CACHE")]
     cache: Option<PathBuf>,
@@ -86,8 +86,8 @@ impl SetupArgs {
 impl EngineArgs {
     /// Threads to play matches on, at least 1.
     pub fn jobs(&self) -> usize {
-        let cores = || thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
-        self.jobs.unwrap_or_else(cores).get()
+        let cores = || thread::available_parallelism().map_or(1, NonZeroUsize::get);
+        self.jobs.map_or_else(cores, usize::from)
     }
 
     /// An executor for all robots by these rules.

@@ -3,7 +3,7 @@
 //! What a robot does and what it costs may depend on nothing but the robot: not on how well
 //! its code is optimized, how memory is allocated or how bounds are checked.
 
-use std::sync::LazyLock;
+use std::sync::{LazyLock, Mutex, PoisonError};
 
 use wasmouse_core::game::FaultKind;
 use wasmtime::{Config, Engine, InstanceAllocationStrategy, OptLevel, RegallocAlgorithm};
@@ -26,10 +26,11 @@ impl Variant {
     }
 }
 
-/// The engine of a host first. No clock runs, because all matches have little fuel.
-static VARIANTS: LazyLock<Vec<Variant>> = LazyLock::new(|| {
+/// The engine of a host first. No clock runs, because all matches have little fuel. Each engine
+/// has room for one match, so tests take turns.
+static VARIANTS: LazyLock<Mutex<Vec<Variant>>> = LazyLock::new(|| {
     let backtraces = Runtime::for_backtraces(limits()).expect("an engine");
-    vec![
+    Mutex::new(vec![
         Variant::new("as in a contest", |_| ()),
         Variant::new("not optimized", |config| {
             config.cranelift_opt_level(OptLevel::None);
@@ -48,7 +49,7 @@ static VARIANTS: LazyLock<Vec<Variant>> = LazyLock::new(|| {
             name: "for backtraces",
             runtime: backtraces,
         },
-    ]
+    ])
 });
 
 /// Plays a random module on every engine.
@@ -59,7 +60,9 @@ pub fn differential(bytes: &[u8]) -> bool {
 /// Plays a robot on every engine, and returns whether it took a step.
 pub(super) fn compare(file: &[u8]) -> bool {
     let mut expected = None;
-    for Variant { name, runtime } in VARIANTS.iter() {
+    // A failed comparison leaves the engines as they are.
+    let variants = VARIANTS.lock().unwrap_or_else(PoisonError::into_inner);
+    for Variant { name, runtime } in variants.iter() {
         let Ok(robot) = runtime.admit(file) else {
             assert!(expected.is_none(), "{name}: only here it is rejected");
             return false;
