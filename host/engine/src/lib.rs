@@ -7,7 +7,8 @@
 //! | `runtime` | wasmtime: [`Runtime`], compiled robots, limits, backtraces |
 //! | `runner` | one match: [`Runtime::run`] |
 //! | [`sandbox`] | untrusted robots in worker processes |
-//! | `executor` | [`Executor`], and where robots run by trust: [`LocalExecutor`] |
+//! | `executor` | [`Executor`]: [`InProcess`] and [`Sandboxed`] |
+//! | `local_executor` | [`LocalExecutor`], which chooses one of the two by trust |
 //! | [`bundled`] | the robots that come with wasmouse |
 //!
 //! What a robot does wrong is data, a [`Fault`](wasmouse_core::game::Fault) in the verdict. An
@@ -23,16 +24,15 @@ mod fuzz;
 #[cfg(fuzzing)]
 pub mod fuzz;
 mod limits;
+mod local_executor;
 mod runner;
 mod runtime;
 pub mod sandbox;
 
 pub use error::InfrastructureError;
-pub use executor::{
-    AdmittedRobot, DetailedMatch, Executor, InProcess, Isolation, LocalExecutor, Played, Sandboxed,
-    Sink, Trust,
-};
+pub use executor::{AdmittedRobot, DetailedMatch, Executor, InProcess, Played, Sandboxed, Sink};
 pub use limits::{AdmissionLimits, Limits, STACK_BYTES};
+pub use local_executor::{Isolation, LocalExecutor, Trust};
 pub use runner::Recording;
 pub use runtime::{
     Cache, CacheUse, CompiledRobot, ENGINE_REVISION, Frame, MATCH_SECONDS_MAX, Runtime,

@@ -204,11 +204,18 @@ pub enum Source {
     Stdin,
 }
 
+/// Whether a specification was written with a maze in mind, right or wrong.
+pub fn is_meant_by(spec: &str) -> bool {
+    let is_bundled = bundled().iter().any(|maze| maze.name == spec);
+    spec == STDIN || is_bundled || GenSpec::is_meant_by(spec) || Path::new(spec).exists()
+}
+
 /// The sources that one specification names: one, or all mazes of a folder.
 ///
 /// # Errors
 ///
-/// When it names nothing, a `gen:` specification is wrong, a folder cannot be listed, or a folder has no mazes.
+/// When it names nothing, a `gen:` specification is wrong, or a folder cannot be listed or has no
+/// mazes.
 pub fn resolve(spec: &str) -> Result<Vec<Source>, Failure> {
     if spec == STDIN {
         return Ok(vec![Source::Stdin]);

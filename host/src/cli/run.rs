@@ -97,7 +97,7 @@ pub struct Args {
     /// Overwrite FILE if it exists
     #[arg(long, requires = "files")]
     force: bool,
-    /// Print the table of matches even if it is long
+    /// Print the table of matches even if it is long (more than 40 matches)
     #[arg(long, conflicts_with = "json")]
     matches: bool,
     /// Print robot log messages to stderr
@@ -210,7 +210,7 @@ impl Args {
     }
 
     fn no_robot(&self) -> Failure {
-        let unknown = self.arguments.iter().find(|it| !Path::new(it).exists());
+        let unknown = self.arguments.iter().find(|it| !mazes::is_meant_by(it));
         match unknown {
             None => Failure::usage("no robot specified").hint(robots::unknown_hint("")),
             Some(argument) => Failure::usage(format!("unknown robot `{}`", for_terminal(argument)))
@@ -276,6 +276,7 @@ impl Args {
         let summary = summary.finish(plan, standings.finish(plan, players));
         if let Some(file) = file {
             file.finish(&summary).map_err(file_failed)?.commit()?;
+            message!("wrote {}", path.display());
         }
         if let Some(stdout) = stdout {
             let written = stdout.finish(&summary);
