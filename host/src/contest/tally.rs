@@ -141,7 +141,7 @@ pub(super) mod tests {
     use wasmouse_core::game::{Counts, Fault, FaultKind, Run, Steps};
     use wasmouse_core::journal::JournalCounts;
     use wasmouse_core::maze::Cell;
-    use wasmouse_core::record::{FuelUse, MatchKey};
+    use wasmouse_core::record::{FuelUse, MatchKey, RecordVersion};
 
     use super::*;
 
@@ -151,6 +151,7 @@ pub(super) mod tests {
     fn record(verdict: Verdict, steps: [u32; 2], fuel: (u64, u64)) -> MatchRecord {
         let digest = Digest::of(b"");
         MatchRecord {
+            version: RecordVersion,
             key: MatchKey {
                 engine: digest,
                 rules: digest,

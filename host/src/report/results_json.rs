@@ -232,7 +232,8 @@ mod tests {
                 });
             assert_eq!(streamed.expect("memory takes everything"), text.as_bytes());
             assert_eq!(read_results(text.as_bytes()), Ok(results.clone()));
-            let one_per_line = |line: &&str| line.trim_start().starts_with("{\"key\":");
+            let one_per_line =
+                |line: &&str| line.trim_start().starts_with("{\"version\":1,\"key\":");
             let lines = text.lines().filter(one_per_line).count();
             assert_eq!(lines, results.matches.len());
         }

@@ -5,7 +5,7 @@ use wasmouse_core::Digest;
 use wasmouse_core::game::{Counts, Fault, FaultKind, Phase, Ruleset, Run, Score, Steps, Verdict};
 use wasmouse_core::journal::JournalCounts;
 use wasmouse_core::maze::Cell;
-use wasmouse_core::record::{EngineId, FuelUse, MatchKey, MatchRecord};
+use wasmouse_core::record::{EngineId, FuelUse, MatchKey, MatchRecord, RecordVersion};
 
 use crate::contest::{
     ContestInfo, MatchFailure, MazeEntry, RESULTS_VERSION, RejectionEntry, Results, RobotEntry,
@@ -69,6 +69,7 @@ pub(super) fn results() -> Results {
         .into_iter()
         .enumerate()
         .map(|(index, verdict)| MatchRecord {
+            version: RecordVersion,
             key: key(index % 2, index / 2),
             verdict,
             steps: Steps {

@@ -23,10 +23,40 @@ pub struct FuelUse {
     pub step_max: u64,
 }
 
+/// The version of the serialised form of a [`MatchRecord`]. Serialises as the number 1;
+/// deserialising another number fails.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(into = "u8", try_from = "u64")]
+pub struct RecordVersion;
+
+impl RecordVersion {
+    const NUMBER: u8 = 1;
+}
+
+impl From<RecordVersion> for u8 {
+    fn from(_: RecordVersion) -> Self {
+        RecordVersion::NUMBER
+    }
+}
+
+impl TryFrom<u64> for RecordVersion {
+    type Error = String;
+
+    fn try_from(number: u64) -> Result<Self, String> {
+        if number == u64::from(Self::NUMBER) {
+            return Ok(Self);
+        }
+        let supported = Self::NUMBER;
+        Err(format!(
+            "match record of version {number}; only version {supported} is supported"
+        ))
+    }
+}
+
 /// The outcome of a match, from the runner to stores, reports and verification.
 ///
-/// Serialises as an object with these fields, and rejects unknown ones. It has no version of
-/// its own: a document or store that contains records has one.
+/// Serialises as an object with these fields, and rejects unknown ones and other versions. A
+/// record can so be read by itself, such as from a line of a file.
 ///
 /// ```
 /// use wasmouse_core::Digest;
@@ -45,16 +75,23 @@ pub struct FuelUse {
 /// let (fuel, journal) = (FuelUse::default(), JournalCounts::default());
 /// let record = MatchRecord::new(key, result, fuel, journal, &transcript);
 ///
-/// let json = serde_json::to_value(&record)?;
+/// let mut json = serde_json::to_value(&record)?;
+/// assert_eq!(json["version"], 1);
 /// assert_eq!(json["verdict"]["kind"], "budget-used-up");
 /// assert_eq!(json["counts"]["resets_before_goal"], 1);
 /// assert_eq!(json["transcript"], transcript.digest().to_string());
-/// assert_eq!(serde_json::from_value::<MatchRecord>(json)?, record);
+/// assert_eq!(serde_json::from_value::<MatchRecord>(json.clone())?, record);
+///
+/// json["version"] = 2.into();
+/// let error = serde_json::from_value::<MatchRecord>(json).expect_err("another version");
+/// assert!(error.to_string().contains("only version 1 is supported"));
 /// # Ok::<(), serde_json::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MatchRecord {
+    /// The version of the serialised form.
+    pub version: RecordVersion,
     /// The identity of the match.
     pub key: MatchKey,
     /// How the match ended.
@@ -86,6 +123,7 @@ impl MatchRecord {
             counts,
         } = result;
         Self {
+            version: RecordVersion,
             key,
             verdict,
             steps,
