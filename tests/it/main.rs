@@ -40,6 +40,8 @@ mod matches;
 mod memory;
 /// Minnett's robot in generated mazes.
 mod minnett;
+/// Good robots in a contest with every hostile one.
+mod mixed_contest;
 /// The prebuilt robots against their sources and their manifest.
 mod prebuilt;
 /// The check before compilation: limits, bombs, proposals.
