@@ -64,6 +64,9 @@ mod sandbox;
 mod sdk_arena;
 /// Where the shared material is.
 mod shared;
+/// Hosts that lack memory, descriptors or cores.
+#[cfg(unix)]
+mod shortages;
 /// Optimal paths and the oracle scores of the official mazes.
 mod solver;
 /// Results on standard output, and pipes that close.
