@@ -1,5 +1,6 @@
 //! Runs a program as on a kernel that lacks something: `kernel-without FEATURE... --
-//! PROGRAM ARGUMENT...`, where a feature is `landlock` or `seccomp`.
+//! PROGRAM ARGUMENT...`, where a feature is `landlock`,
+//! `seccomp` or `namespaces`.
 //!
 //! The system calls of the features fail with ENOSYS, for the program and for everything
 //! that it starts.
@@ -31,6 +32,7 @@ fn run(features: &[String], program: &str, arguments: &[String]) -> io::Result<(
                 libc::SYS_landlock_restrict_self,
             ],
             "seccomp" => &[libc::SYS_seccomp],
+            "namespaces" => &[libc::SYS_unshare],
             other => return Err(io::Error::other(format!("no feature `{other}`"))),
         };
         calls.extend(missing.iter().map(|call| (*call, Vec::new())));

@@ -27,30 +27,49 @@ impl Role {
     }
 }
 
-/// Address space of a compile worker, in bytes. The largest known robots (Python) take half
+/// Memory that a compile worker may use, in bytes. The largest known robots (Python) take half
 /// a gigabyte.
 pub const COMPILE_MEMORY_BYTES: u64 = 2 << 30;
+
+/// Memory that a worker that runs robots may use, in bytes: a robot's, compiled code, and, for a
+/// backtrace, what a compiler takes.
+pub const RUN_MEMORY_BYTES: u64 = 4 << 30;
+
+/// Threads that compile one file, on every machine: each takes memory, and a file that is
+/// rejected for taking too much must not be accepted where there are fewer cores.
+pub const COMPILE_THREADS: usize = 4;
 
 /// Processor time of a compile worker, in seconds, all threads together. The largest known
 /// robots take 30 s on a slow machine.
 pub const COMPILE_CPU_SECONDS: u64 = 120;
 
-/// Which layers of the sandbox the operating system provides.
+/// Which layers of the sandbox a worker has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SandboxStatus {
     /// No files, network or signals, by landlock.
     pub landlock: bool,
     /// No system calls but a few, by seccomp.
     pub seccomp: bool,
+    /// Namespaces of its own for users, processes, networks, IPC, mounts, host names and
+    /// control groups.
+    pub namespaces: bool,
+    /// An empty root folder.
+    pub empty_root: bool,
+    /// No capabilities in any set.
+    pub no_capabilities: bool,
+    /// A control group of its own, which limits memory and processes.
+    pub control_group: bool,
 }
 
 impl SandboxStatus {
-    /// Whether every layer is there.
+    /// Whether the two layers are there that every supported kernel gives to every user. The
+    /// others depend on how the system is set up (in containers, most are not to be had), and
+    /// what they forbid, these two forbid as well.
     pub const fn is_complete(self) -> bool {
         self.landlock && self.seccomp
     }
 
-    /// The layers that are missing, for messages.
+    /// Of these two, those that are missing, for messages.
     pub const fn missing(self) -> &'static str {
         match (self.landlock, self.seccomp) {
             (false, false) => "landlock and no seccomp",
@@ -58,5 +77,17 @@ impl SandboxStatus {
             (true, false) => "seccomp",
             (true, true) => "missing layer",
         }
+    }
+
+    /// All layers by name, with whether they are there.
+    pub const fn layers(self) -> [(&'static str, bool); 6] {
+        [
+            ("landlock", self.landlock),
+            ("seccomp", self.seccomp),
+            ("namespaces", self.namespaces),
+            ("empty root", self.empty_root),
+            ("no capabilities", self.no_capabilities),
+            ("control group", self.control_group),
+        ]
     }
 }

@@ -49,6 +49,7 @@ where
     W: FnOnce(&Runtime, SandboxStatus) -> io::Result<()> + Send + 'static,
 {
     privileges::set_limits(Role::Backtrace);
+    let isolation = privileges::isolate()?;
     let failed = |error: InfrastructureError| io::Error::other(error.to_string());
     let runtime = Runtime::for_backtraces(*limits).map_err(failed)?;
     let clock = runtime.clock();
@@ -56,9 +57,12 @@ where
         start_compilers()?;
         clock.start().map_err(failed)
     };
-    sandboxed(Role::Backtrace, STACK_BYTES, threads, move |sandbox| {
-        work(&runtime, sandbox)
-    })
+    sandboxed(
+        (Role::Backtrace, isolation),
+        STACK_BYTES,
+        threads,
+        move |sandbox| work(&runtime, sandbox),
+    )
 }
 
 fn backtrace(runtime: &Runtime, file: &[u8], order: &BacktraceOrder) -> io::Result<Backtrace> {

@@ -6,7 +6,7 @@ use wasmouse_core::Digest;
 use wasmtime::Engine;
 
 use super::super::protocol::{self, CompileOrder, Compiled, Examined, Hello};
-use super::super::role::{Role, SandboxStatus};
+use super::super::role::{COMPILE_THREADS, Role, SandboxStatus};
 use super::pipes::{Pipes, read_exactly};
 use super::privileges;
 use super::setup::sandboxed;
@@ -54,10 +54,11 @@ where
     W: FnOnce(&Engine, SandboxStatus) -> io::Result<()> + Send + 'static,
 {
     privileges::set_limits(Role::Compile);
+    let isolation = privileges::isolate()?;
     let failed = |error: InfrastructureError| io::Error::other(error.to_string());
     let engine = new_compiler(limits).map_err(failed)?;
     sandboxed(
-        Role::Compile,
+        (Role::Compile, isolation),
         STACK_BYTES,
         start_compilers,
         move |sandbox| work(&engine, sandbox),
@@ -67,6 +68,7 @@ where
 /// Starts the threads that wasmtime compiles on.
 pub(super) fn start_compilers() -> io::Result<()> {
     rayon::ThreadPoolBuilder::new()
+        .num_threads(COMPILE_THREADS)
         .stack_size(STACK_BYTES)
         .build_global()
         .map_err(io::Error::other)

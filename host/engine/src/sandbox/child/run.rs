@@ -74,14 +74,18 @@ where
     W: FnOnce(Runtime, SandboxStatus) -> io::Result<()> + Send + 'static,
 {
     privileges::set_limits(Role::Run);
+    let isolation = privileges::isolate()?;
     let failed = |error: InfrastructureError| io::Error::other(error.to_string());
     // The engine opens a file of its own, so it is made before files are forbidden.
     let runtime = Runtime::without_clock(*limits, 1, None).map_err(failed)?;
     let clock = runtime.clock();
     let threads = move || clock.start().map_err(failed);
-    sandboxed(Role::Run, STACK_BYTES, threads, move |sandbox| {
-        work(runtime, sandbox)
-    })
+    sandboxed(
+        (Role::Run, isolation),
+        STACK_BYTES,
+        threads,
+        move |sandbox| work(runtime, sandbox),
+    )
 }
 
 /// What the worker keeps between requests.

@@ -11,15 +11,15 @@ use super::privileges;
 /// of that many bytes. Whatever needs files has to exist by now; `threads` starts the other
 /// threads of the process.
 ///
-/// The order matters. Landlock holds for the calling thread and the threads that it starts
-/// later; seccomp is applied to all threads at once and forbids starting more. So: landlock,
-/// then all threads, then seccomp, and only then the work.
+/// The order matters. Landlock and the loss of capabilities hold for the calling thread and the
+/// threads that it starts later; seccomp is applied to all threads at once and forbids starting
+/// more. So: those, then all threads, then seccomp, and only then the work.
 ///
 /// # Errors
 ///
 /// When the machine gives no threads, or the work fails.
 pub(super) fn sandboxed<W>(
-    role: Role,
+    (role, isolation): (Role, privileges::Isolation),
     stack_bytes: usize,
     threads: impl FnOnce() -> io::Result<()>,
     work: W,
@@ -27,7 +27,7 @@ pub(super) fn sandboxed<W>(
 where
     W: FnOnce(SandboxStatus) -> io::Result<()> + Send + 'static,
 {
-    let landlock = privileges::forbid_files();
+    let confined = privileges::confine(isolation);
     threads()?;
     let (begin, wait) = mpsc::sync_channel(1);
     let worker = thread::Builder::new()
@@ -39,7 +39,10 @@ where
         })?;
     let seccomp = privileges::forbid_system_calls(role);
     // The thread is waiting for this and nothing else, so the send cannot fail.
-    let _ = begin.send(SandboxStatus { landlock, seccomp });
+    let _ = begin.send(SandboxStatus {
+        seccomp,
+        ..confined
+    });
     worker
         .join()
         .unwrap_or_else(|_| Err(io::Error::other("a thread of the worker panicked")))

@@ -2,15 +2,13 @@
 
 use rustix::process::{Resource, Rlimit, setrlimit};
 
-use super::super::super::role::{COMPILE_CPU_SECONDS, COMPILE_MEMORY_BYTES, Role};
+use super::super::super::role::{
+    COMPILE_CPU_SECONDS, COMPILE_MEMORY_BYTES, RUN_MEMORY_BYTES, Role,
+};
 
 /// The anonymous file with a robot's initial memory is a file to the kernel. No
 /// ruleset gives a robot more memory.
 const MEMORY_FILE_BYTES: u64 = 1 << 30;
-
-/// Memory that a worker with a pool may write, in bytes: a robot's, compiled code,
-/// and what a compiler takes.
-const RUN_MEMORY_BYTES: u64 = 4 << 30;
 
 /// Sets the resource limits of the process. A limit that cannot be set is skipped: each
 /// is a second line of defence.
@@ -18,15 +16,14 @@ pub fn set_limits(role: Role) {
     // No core may be written, and few descriptors are needed.
     limit(Resource::Core, 0, 0);
     limit(Resource::Nofile, 64, 64);
-    if role == Role::Compile {
-        limit(Resource::Fsize, 0, 0);
-        limit(Resource::As, COMPILE_MEMORY_BYTES, COMPILE_MEMORY_BYTES);
-    } else {
-        // A pool of instances reserves terabytes of address space without using
-        // them, so what can be written is limited instead.
-        limit(Resource::Fsize, MEMORY_FILE_BYTES, MEMORY_FILE_BYTES);
-        limit(Resource::Data, RUN_MEMORY_BYTES, RUN_MEMORY_BYTES);
-    }
+    // What can be written is limited, and not the address space: a pool of instances reserves
+    // terabytes of that without using them, and an allocator reserves some for each thread.
+    let (file, data) = match role {
+        Role::Compile => (0, COMPILE_MEMORY_BYTES),
+        Role::Run | Role::Backtrace => (MEMORY_FILE_BYTES, RUN_MEMORY_BYTES),
+    };
+    limit(Resource::Fsize, file, file);
+    limit(Resource::Data, data, data);
     if role != Role::Run {
         // The first limit ends it by a signal of its own, which tells the
         // supervisor why; the second one kills.
