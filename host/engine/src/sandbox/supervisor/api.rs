@@ -13,6 +13,7 @@ use wasmtime::Engine;
 use super::super::protocol::{Backtrace, BacktraceOrder};
 use super::super::role::{COMPILE_CPU_SECONDS, Role, SandboxStatus};
 use super::admit::Admitter;
+use super::group::Groups;
 use super::monitor::Monitor;
 use super::play::Sink;
 use super::pool::Pool;
@@ -55,6 +56,7 @@ impl Supervisor {
         let starter = Starter {
             monitor: Monitor::start().map_err(InfrastructureError::Thread)?,
             workers,
+            groups: Groups::find(),
         };
         let pool = Pool::new(starter, rules, limits);
         let first = pool.start()?;

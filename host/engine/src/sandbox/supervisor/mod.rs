@@ -4,6 +4,7 @@ mod admit;
 mod api;
 pub(super) mod check;
 mod compiler;
+mod group;
 mod monitor;
 mod play;
 mod pool;

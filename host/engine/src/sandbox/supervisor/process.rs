@@ -14,6 +14,7 @@ use serde::de::DeserializeOwned;
 
 use super::super::protocol::{self, Hello};
 use super::super::role::{Role, SandboxStatus};
+use super::group::{Group, Groups};
 use super::monitor::{Monitor, Watched};
 use crate::error::InfrastructureError;
 use crate::runtime::MATCH_SECONDS_MAX;
@@ -38,6 +39,8 @@ pub const PATIENCE: Duration = Duration::from_secs(MATCH_SECONDS_MAX + 30);
 pub(super) struct Starter {
     pub(super) monitor: Monitor,
     pub(super) workers: WorkerOptions,
+    /// Control groups for workers, where there are any.
+    pub(super) groups: Option<Groups>,
 }
 
 impl Starter {
@@ -110,6 +113,8 @@ pub(super) struct Process {
     to: BufWriter<ChildStdin>,
     from: BufReader<ChildStdout>,
     stderr: ChildStderr,
+    /// Its control group, where there is one. Dropped after the process is reaped.
+    group: Option<Group>,
 }
 
 /// How a worker exited that should not have.
@@ -141,7 +146,13 @@ impl Process {
             return Err(failed("it has no pipes".into()));
         };
         watched.set_deadline(START_TIME_MAX);
+        // It waits to be told what to do, so it has used nothing and started nothing by now.
+        let pid = watched.child().id();
+        let groups = starter.groups.as_ref();
+        let group = groups.and_then(|groups| groups.create(role));
+        let group = group.filter(|group| group.add(pid).is_ok());
         Ok(Self {
+            group,
             watched,
             to: BufWriter::with_capacity(64 << 10, stdin),
             from: BufReader::with_capacity(64 << 10, stdout),
@@ -189,7 +200,10 @@ impl Process {
         let hello: Hello = self.receive()?;
         let build = protocol::build();
         if hello.build == build {
-            Ok(hello.sandbox)
+            Ok(SandboxStatus {
+                control_group: self.group.is_some(),
+                ..hello.sandbox
+            })
         } else {
             let other = plain(&hello.build.chars().take(80).collect::<String>());
             Err(io::Error::other(format!(
@@ -220,6 +234,9 @@ impl Process {
         let _ = (&mut self.stderr)
             .take(STDERR_BYTES_MAX)
             .read_to_end(&mut stderr);
+        if self.group.as_ref().is_some_and(Group::is_out_of_memory) {
+            stderr.extend_from_slice(b"\nits control group ran out of memory");
+        }
         WorkerExit {
             status,
             expired: self.watched.expired(),
