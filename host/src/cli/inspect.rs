@@ -1,5 +1,7 @@
 //! `wasmouse inspect`: whether a robot file is admitted, and what it is.
 
+use wasmouse_engine::sandbox::SandboxStatus;
+
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
@@ -26,6 +28,8 @@ pub struct Args {
     /// A bundled robot, a file or a robot project
     robot: String,
     /// Show everything that is measured before a robot is compiled, with its limit
+    ///
+    /// For an untrusted robot, also names the layers of its sandbox on this system.
     #[arg(long)]
     measures: bool,
     /// Print JSON
@@ -55,10 +59,30 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         output::print(&report.to_json())?;
     } else {
         output::print(&report.to_text(args.measures))?;
+        if args.measures
+            && let Some(sandbox) = executor.sandbox()
+        {
+            output::print(&layers(sandbox))?;
+        }
     }
     Ok(if inspection.rejection.is_some() {
         Exit::Robot
     } else {
         Exit::Success
     })
+}
+
+/// The layers of the sandbox, and those that this system does not provide.
+fn layers(sandbox: SandboxStatus) -> String {
+    let named = |there: bool| {
+        let layers = sandbox.layers().into_iter();
+        let names: Vec<_> = layers.filter(|it| it.1 == there).map(|it| it.0).collect();
+        names.join(", ")
+    };
+    let (there, missing) = (named(true), named(false));
+    if missing.is_empty() {
+        format!("  sandbox   {there}\n")
+    } else {
+        format!("  sandbox   {there}; not on this system: {missing}\n")
+    }
 }
