@@ -40,7 +40,9 @@ pub struct Supervisor {
 
 impl Supervisor {
     /// A supervisor for matches by these rules, with compiled robots kept in `cache`. Starts
-    /// the first worker, to see which layers of the sandbox there are.
+    /// the first worker, to see which layers of the sandbox there are. Where this process is alone
+    /// in a control group that it may arrange, it moves into a group below that, and its workers
+    /// into others.
     ///
     /// # Errors
     ///

@@ -39,8 +39,10 @@ const EXTRA_BYTES: u64 = 256 << 20;
 #[derive(Debug)]
 pub(super) struct Groups {
     base: PathBuf,
-    next: AtomicU64,
 }
+
+/// The number of the next group: of all supervisors of this process, so that names differ.
+static NEXT: AtomicU64 = AtomicU64::new(0);
 
 impl Groups {
     /// The part of the hierarchy that is this process's, if any. May move this process into a group
@@ -50,17 +52,14 @@ impl Groups {
         let mounts = fs::read_to_string("/proc/self/mountinfo").ok()?;
         let base = base(&folder(&own, &mounts)?)?;
         remove_abandoned(&base);
-        let groups = Self {
-            base,
-            next: AtomicU64::new(0),
-        };
+        let groups = Self { base };
         // Whether groups can be made and limited shows when one is.
         groups.create(Role::Run).map(|_| groups)
     }
 
     /// A group for a worker; `None` where it cannot be made any more.
     pub(super) fn create(&self, role: Role) -> Option<Group> {
-        let number = self.next.fetch_add(1, Ordering::Relaxed);
+        let number = NEXT.fetch_add(1, Ordering::Relaxed);
         let name = format!("{PREFIX}{}-{number}", process::id());
         let folder = self.base.join(name);
         fs::create_dir(&folder).ok()?;
