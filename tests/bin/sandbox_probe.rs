@@ -10,6 +10,7 @@
 //! - `fatal NAME`: one of the system calls that end the process.
 //! - `wait`: nothing. Prints a line and waits for the end of its input, so that it can be looked
 //!   at from outside.
+//! - `spin`: nothing, for ever.
 //!
 //! `list` in place of `worker` prints the names of all calls in [`FATAL`].
 
@@ -92,6 +93,9 @@ mod linux {
             "others" => others(),
             "fatal" => fatal(&first),
             "wait" => wait(sandbox),
+            "spin" => loop {
+                std::hint::spin_loop();
+            },
             other => Err(Error::other(format!("nothing to try: `{other}`"))),
         };
         match argument(2).as_str() {

@@ -348,6 +348,20 @@ fn the_process_that_was_started_ends_as_the_worker_does() {
     }
 }
 
+/// The supervisor tells a worker that took too long from one that crashed by its signal, which a
+/// process that is the first of its namespace does not end by.
+#[test]
+fn a_worker_without_time_ends_by_the_signal_for_that() {
+    const SIGXCPU: i32 = 24;
+    let mut command = Command::new("sh");
+    command
+        .args(["-c", "ulimit -St 1; exec \"$0\" worker run spin"])
+        .arg(env!("CARGO_BIN_EXE_sandbox-probe"))
+        .stdin(Stdio::null());
+    let output = command.output().expect("the probe starts");
+    assert_eq!(output.status.signal(), Some(SIGXCPU), "{output:?}");
+}
+
 /// A control group that limits nothing, below the one of this process.
 struct Delegated(PathBuf);
 
