@@ -289,11 +289,11 @@ fn a_worker_has_no_privileges() {
 /// threads is the same everywhere, and stacks and arenas that are reserved do not count.
 #[test]
 fn the_limits_of_a_worker_do_not_depend_on_the_machine() {
-    // The first thread, one that works, one that keeps time, and four that compile.
+    // The first thread, one that works, one that keeps time, and two that compile.
     let roles = [
-        (Role::Compile, "6", "2147483648"),
+        (Role::Compile, "4", "2147483648"),
         (Role::Run, "3", "4294967296"),
-        (Role::Backtrace, "7", "4294967296"),
+        (Role::Backtrace, "5", "4294967296"),
     ];
     for (role, threads, data) in roles.map(|(role, threads, data)| (role.name(), threads, data)) {
         let Some(waiting) = Waiting::start(role) else {
