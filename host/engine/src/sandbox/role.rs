@@ -51,8 +51,8 @@ pub struct SandboxStatus {
     pub landlock: bool,
     /// No system calls but a few, by seccomp.
     pub seccomp: bool,
-    /// Namespaces of its own for users, processes, networks, IPC, mounts, host names and
-    /// control groups.
+    /// Namespaces of its own for processes, networks, IPC, mounts, host names and control groups;
+    /// also for users, unless root had to do without.
     pub namespaces: bool,
     /// An empty root folder.
     pub empty_root: bool,
