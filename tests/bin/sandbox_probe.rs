@@ -12,7 +12,7 @@
 //!   at from outside.
 //! - `spin`: nothing, for ever.
 //!
-//! `list` in place of `worker` prints the names of all calls in [`FATAL`].
+//! `list` in place of `worker` prints the names of all calls that end the process.
 
 #[cfg(target_os = "linux")]
 mod linux {
