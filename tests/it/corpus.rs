@@ -89,3 +89,32 @@ fn rejection(engine: &Engine, file: &[u8]) -> Option<Value> {
     assert!(!rejection.hint().is_empty(), "{rejection}");
     Some(json!({"rejection": {"kind": rejection.name(), "reason": reason}}))
 }
+
+/// Errors of wasmtime that have no type are recognised as the robot's by how they start. A case
+/// has each of them, so a version of wasmtime that words one otherwise fails the test above.
+#[test]
+fn every_known_violation_has_a_case() {
+    let source = include_str!("../../host/engine/src/runtime/fault.rs");
+    let (_, table) = source
+        .split_once("const VIOLATIONS")
+        .expect("the table of messages");
+    let (_, table) = table.split_once("= [").expect("its rows");
+    let (table, _) = table.split_once("];").expect("its end");
+    let messages: Vec<&str> = table
+        .lines()
+        .filter_map(|line| line.trim().strip_prefix('"')?.strip_suffix("\","))
+        .collect();
+    assert!(messages.len() > 10, "{messages:?}");
+    let expected: Vec<String> = cases()
+        .iter()
+        .flat_map(|case| &case.expected)
+        .filter_map(|it| it["verdict"]["fault"]["detail"].as_str())
+        .filter_map(|detail| detail.strip_prefix("violated the interface: "))
+        .map(str::to_owned)
+        .collect();
+    let missing: Vec<&&str> = messages
+        .iter()
+        .filter(|message| !expected.iter().any(|it| it.starts_with(**message)))
+        .collect();
+    assert!(missing.is_empty(), "no case for {missing:?}");
+}

@@ -67,6 +67,8 @@ mod shared;
 /// Hosts that lack memory, descriptors or cores.
 #[cfg(unix)]
 mod shortages;
+/// A host that is short of memory or descriptors.
+mod shortage;
 /// Optimal paths and the oracle scores of the official mazes.
 mod solver;
 /// Results on standard output, and pipes that close.

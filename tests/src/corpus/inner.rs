@@ -2,12 +2,12 @@
 //! its own `realloc`, with resources, and when it calls itself.
 
 use super::case::{Case, fault, harmless, out_of_step_fuel, unreachable, violation};
-use crate::composite::Composite;
-use crate::module::{DRIVE_ON, Module};
+use crate::composite::{Composite, JOURNAL, TYPES};
+use crate::module::{DRIVE_ON, Module, wasm};
 
 /// Of the cases 5 to 50 those that need an inner component.
 pub fn cases() -> Vec<Case> {
-    [reallocs(), values(), reentry(), resources()]
+    [reallocs(), values(), reentry(), resources(), lending()]
         .into_iter()
         .flatten()
         .collect()
@@ -28,6 +28,8 @@ struct Handover {
     take: &'static str,
     /// Canonical options of the inner component.
     options: &'static str,
+    /// Canonical options of the robot.
+    robot_options: &'static str,
 }
 
 const TEXT: Handover = Handover {
@@ -37,6 +39,7 @@ const TEXT: Handover = Handover {
     realloc: "i32.const 128",
     take: "",
     options: "",
+    robot_options: "",
 };
 
 impl Handover {
@@ -48,6 +51,7 @@ impl Handover {
             realloc,
             take,
             options,
+            robot_options,
         } = self;
         let callee = format!(
             r#"(component $callee
@@ -75,14 +79,14 @@ impl Handover {
         Composite {
             before: &format!(
                 r#"(import "take" (func $take (param "value" {value})))
-                (core func $take (canon lower (func $take) (memory $memory)))
+                (core func $take (canon lower (func $take) (memory $memory) {robot_options}))
                 (core instance $inner (export "take" (func $take)))"#
             ),
             with: r#"(with "inner" (instance $inner))"#,
             robot: Module {
                 imports: &format!(r#"(import "inner" "take" (func $take {parameters}))"#),
                 memory: Composite::MEMORY,
-                rest: r#"(data (i32.const 64) "hello\ff")"#,
+                rest: r#"(data (i32.const 64) "hello\ff") (data (i32.const 80) "\00\d8a\00")"#,
                 next: &format!("(call $take {given}) {DRIVE_ON}"),
                 ..Module::default()
             },
@@ -172,6 +176,16 @@ fn reallocs() -> Vec<Case> {
             Handover {
                 given: "(i32.const 64) (i32.const 6)",
                 ..wide("i32.const 0")
+            },
+        ),
+        realloc(
+            &[40],
+            "invalid-utf-16-to-an-inner-component",
+            violation("invalid utf16 encoding"),
+            Handover {
+                given: "(i32.const 80) (i32.const 2)",
+                robot_options: UTF16,
+                ..wide("i32.const 128")
             },
         ),
     ]
@@ -298,14 +312,17 @@ fn resources() -> Vec<Case> {
                     (core func $new (canon resource.new $thing))
                     (core func $drop (canon resource.drop $thing))
                     (core func $rep (canon resource.rep $thing))
+                    (type $other (resource (rep i32)))
+                    (core func $drop-other (canon resource.drop $other))
                     (core instance $things
                         (export \"new\" (func $new)) (export \"drop\" (func $drop))
-                        (export \"rep\" (func $rep)))",
+                        (export \"rep\" (func $rep)) (export \"drop-other\" (func $drop-other)))",
                 with: r#"(with "things" (instance $things))"#,
                 robot: Module {
                     imports: r#"(import "things" "new" (func $new (param i32) (result i32)))
                         (import "things" "drop" (func $drop (param i32)))
-                        (import "things" "rep" (func $rep (param i32) (result i32)))"#,
+                        (import "things" "rep" (func $rep (param i32) (result i32)))
+                        (import "things" "drop-other" (func $drop-other (param i32)))"#,
                     memory: Composite::MEMORY,
                     next: &format!("(local $thing i32) {next} {DRIVE_ON}"),
                     ..Module::default()
@@ -350,5 +367,138 @@ fn resources() -> Vec<Case> {
             "(local.set $thing (call $new (i32.const 7)))
              (call $drop (local.get $thing)) (drop (call $rep (local.get $thing)))",
         ),
+        using(
+            &[50],
+            "resource-dropped-as-another-type",
+            violation(
+                "handle index 1 used with the wrong type, expected guest-defined resource but \
+                 found a different guest-defined resource",
+            ),
+            "(call $drop-other (call $new (i32.const 7)))",
+        ),
     ]
+}
+
+/// Handles of a resource that another component of the robot has defined.
+fn lending() -> Vec<Case> {
+    let lending = |numbers, name: &str, reason, next: &'static str, user: &'static str| {
+        Case::new(numbers, name, violation(reason), move || {
+            three_components(next, user)
+        })
+    };
+    vec![
+        lending(
+            &[50],
+            "resource-lent-and-given-away",
+            "cannot remove owned resource while borrowed",
+            "(local.set $thing (call $make)) (call $both (local.get $thing) (local.get $thing))",
+            "",
+        ),
+        lending(
+            &[50],
+            "borrowed-resource-given-away",
+            "cannot lift own resource from a borrow",
+            "(call $use (call $make))",
+            "(call $consume (local.get 0))",
+        ),
+        lending(
+            &[50],
+            "borrowed-resource-kept",
+            "borrow handles still remain at the end of the call",
+            "(call $use (call $make))",
+            "",
+        ),
+        lending(
+            &[49],
+            "resource-lent-at-the-limit-of-handles",
+            "cannot lend resource: store handle limit exceeded",
+            "(local $count i32)
+             (loop $again
+                (local.set $thing (call $make))
+                (local.set $count (i32.add (local.get $count) (i32.const 1)))
+                (br_if $again (i32.lt_u (local.get $count) (i32.const 16))))
+             (call $use (local.get $thing))",
+            "(call $drop (local.get 0))",
+        ),
+    ]
+}
+
+/// A robot beside one component that has a resource and one that borrows it; with a body for
+/// the robot's step, and one for the function `use` of the other.
+fn three_components(next: &str, user: &str) -> Vec<u8> {
+    const PROVIDER: &str = r#"(component $provider
+        (type $thing (resource (rep i32)))
+        (core func $new (canon resource.new $thing))
+        (core module $m
+            (import "own" "new" (func $new (param i32) (result i32)))
+            (func (export "make") (result i32) (call $new (i32.const 7)))
+            (func (export "consume") (param i32))
+            (func (export "both") (param i32 i32)))
+        (core instance $own (export "new" (func $new)))
+        (core instance $m (instantiate $m (with "own" (instance $own))))
+        (export $t "thing" (type $thing))
+        (func (export "make") (result (own $t)) (canon lift (core func $m "make")))
+        (func (export "consume") (param "thing" (own $t)) (canon lift (core func $m "consume")))
+        (func (export "both") (param "lent" (borrow $t)) (param "given" (own $t))
+            (canon lift (core func $m "both"))))"#;
+    let robot = Composite {
+        before: r#"
+            (import "thing" (type $thing (sub resource)))
+            (import "make" (func $make (result (own $thing))))
+            (import "use" (func $use (param "thing" (borrow $thing))))
+            (import "both" (func $both (param "lent" (borrow $thing)) (param "given" (own $thing))))
+            (core func $make (canon lower (func $make)))
+            (core func $use (canon lower (func $use)))
+            (core func $both (canon lower (func $both)))
+            (core instance $things
+                (export "make" (func $make)) (export "use" (func $use))
+                (export "both" (func $both)))"#,
+        with: r#"(with "things" (instance $things))"#,
+        robot: Module {
+            imports: r#"(import "things" "make" (func $make (result i32)))
+                (import "things" "use" (func $use (param i32)))
+                (import "things" "both" (func $both (param i32 i32)))"#,
+            memory: Composite::MEMORY,
+            next: &format!("(local $thing i32) {next} {DRIVE_ON}"),
+            ..Module::default()
+        },
+        ..Composite::default()
+    };
+    let robot = robot.wat().replacen("(component", "(component $robot", 1);
+    wasm(&format!(
+        r#"(component
+            {TYPES}
+            {JOURNAL}
+            {PROVIDER}
+            (instance $provider (instantiate $provider))
+            (alias export $provider "thing" (type $thing))
+            (alias export $provider "make" (func $make))
+            (alias export $provider "consume" (func $consume))
+            (alias export $provider "both" (func $both))
+            (component $user
+                (import "thing" (type $thing (sub resource)))
+                (import "consume" (func $consume (param "thing" (own $thing))))
+                (core func $consume (canon lower (func $consume)))
+                (core func $drop (canon resource.drop $thing))
+                (core module $m
+                    (import "host" "consume" (func $consume (param i32)))
+                    (import "host" "drop" (func $drop (param i32)))
+                    (func (export "use") (param i32) {user}))
+                (core instance $host
+                    (export "consume" (func $consume)) (export "drop" (func $drop)))
+                (core instance $m (instantiate $m (with "host" (instance $host))))
+                (func (export "use") (param "thing" (borrow $thing))
+                    (canon lift (core func $m "use"))))
+            (instance $user (instantiate $user
+                (with "thing" (type $thing)) (with "consume" (func $consume))))
+            (alias export $user "use" (func $use))
+            {robot}
+            (instance $robot (instantiate $robot
+                (with "wasmouse:robot/types@VERSION" (instance $types))
+                (with "wasmouse:robot/journal@VERSION" (instance $journal))
+                (with "thing" (type $thing)) (with "make" (func $make))
+                (with "use" (func $use)) (with "both" (func $both))))
+            (alias export $robot "wasmouse:robot/controller@VERSION" (instance $controller))
+            (export "wasmouse:robot/controller@VERSION" (instance $controller)))"#
+    ))
 }

@@ -84,6 +84,18 @@ fn memories() -> Vec<Case> {
             },
         ),
         Case::new(
+            &[25],
+            "growth-beyond-all-addresses",
+            fault("out-of-memory", &over(4097)),
+            || {
+                Module {
+                    next: "(drop (memory.grow (i32.const 65536))) i32.const 16",
+                    ..Module::default()
+                }
+                .component()
+            },
+        ),
+        Case::new(
             &[26],
             "many-memories-each-under-the-limit",
             fault_in("instantiate", 0, "out-of-memory", &over(257)),

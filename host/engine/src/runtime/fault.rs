@@ -1,7 +1,12 @@
 //! [`classify`]: what an error of a guest call means.
 //!
-//! The only place that looks into errors of a call by wasmtime. What is not the robot's doing
-//! becomes an [`InfrastructureError`] and never a verdict.
+//! The only place that looks into errors of a call by wasmtime. An error is a fault of the robot
+//! if it is known to be one; everything else becomes an [`InfrastructureError`] and never a
+//! verdict. So an error that a new version of wasmtime adds, or that a host reports which is
+//! short of memory or descriptors, cannot be blamed on a robot.
+
+use std::char::DecodeUtf16Error;
+use std::str::Utf8Error;
 
 use wasmouse_core::game::{FaultKind, FuelLimit};
 use wasmtime::Trap;
@@ -11,55 +16,69 @@ use super::guest::Panicked;
 use super::limiter::LimitExceeded;
 use crate::error::InfrastructureError;
 
-/// How wasmtime reports a call that hands over too much. It calls the allowance fuel, which
-/// it is not: robots have other fuel.
-const TOO_MUCH_COPIED: &str = "fuel allocated for hostcalls has been exhausted";
+/// How wasmtime reports a call that passes too much. It calls the allowance fuel, which it is
+/// not: robots have other fuel.
+const TOO_MUCH_COPIED: &str = "too much data is being copied between the host and the guest";
+
+/// How wasmtime's errors start that say that a robot broke the canonical ABI and have no type of
+/// their own. `tests/it/violations.rs` has a robot for each.
+const VIOLATIONS: [&str; 13] = [
+    // Lifting the action.
+    "pointer out of bounds of memory",
+    "unexpected discriminant: ",
+    // Lifting text for the journal.
+    "string pointer not aligned to ",
+    "string pointer/length out of bounds of memory",
+    // Text that one component of a robot passes to another.
+    "invalid utf8 encoding",
+    "invalid utf16 encoding",
+    // Handles of the robot's own resources.
+    "unknown handle index ",
+    "handle index ",
+    "cannot allocate another handle: ",
+    "cannot lend resource: ",
+    "cannot remove owned resource while borrowed",
+    "cannot lift own resource from a borrow",
+    "borrow handles still remain at the end of the call",
+];
 
 /// Classifies an error of a guest call: a fault of the robot, or of the host.
 ///
 /// # Errors
 ///
-/// When the failure is not the robot's.
+/// When the failure is not known to be the robot's.
 ///
 /// `fuel` is the limit that the call ran under, with its size; `copied_max` how many
-/// bytes one call may hand to the host.
+/// bytes one call may pass to the host.
 pub(crate) fn classify(
     error: &wasmtime::Error,
     fuel: (FuelLimit, u64),
     copied_max: u64,
 ) -> Result<(FaultKind, String), InfrastructureError> {
     if let Some(limit) = error.downcast_ref::<LimitExceeded>() {
-        let kind = match limit {
-            LimitExceeded::Memory { .. } => FaultKind::OutOfMemory,
-            LimitExceeded::Table { .. } => FaultKind::TableLimit,
-        };
-        return Ok((kind, limit.to_string()));
+        return Ok((limit.fault(), limit.to_string()));
     }
     if let Some(panicked) = error.downcast_ref::<Panicked>() {
         return Ok((FaultKind::Panic, panicked.to_string()));
     }
-    if error.is::<wasmtime::PoolConcurrencyLimitError>() {
-        return Err(InfrastructureError::call(error));
-    }
-    let Some(trap) = error.downcast_ref::<Trap>() else {
-        // Everything else that a call returns is about lifting what the robot
-        // handed over: discriminants, pointers, strings, sizes.
-        let message = format!("{error:#}");
-        let detail = if message.contains(TOO_MUCH_COPIED) {
-            format!("passed more than {copied_max} bytes to the host in one call")
-        } else {
-            format!("violated the interface: {message}")
-        };
-        return Ok((FaultKind::InvalidAction, detail));
-    };
-    let (kind, detail) = match trap {
-        Trap::OutOfFuel => return Ok(out_of_fuel(fuel)),
+    let fault = match error.downcast_ref::<Trap>() {
+        Some(Trap::OutOfFuel) => return Ok(out_of_fuel(fuel)),
         // The safety net of the host: says nothing about the robot.
-        Trap::Interrupt => {
+        Some(Trap::Interrupt) => {
             return Err(InfrastructureError::Stalled {
                 seconds: MATCH_SECONDS_MAX,
             });
         }
+        Some(trap) => fault_of_trap(*trap),
+        None => violation(error, copied_max),
+    };
+    fault.ok_or_else(|| InfrastructureError::call(error))
+}
+
+/// What a trap says about the robot; `None` for traps of features that robots do not have, and
+/// for wasmtime's assertions about itself.
+fn fault_of_trap(trap: Trap) -> Option<(FaultKind, String)> {
+    let (kind, detail) = match trap {
         Trap::StackOverflow => (FaultKind::StackOverflow, "overflowed its stack"),
         Trap::UnreachableCodeReached => (
             FaultKind::Unreachable,
@@ -78,14 +97,34 @@ pub(crate) fn classify(
             FaultKind::BadIndirectCall,
             "called a function of the wrong type",
         ),
-        _ => {
-            return Ok((
-                FaultKind::InvalidAction,
-                format!("violated the interface: {trap}"),
-            ));
-        }
+        Trap::CannotEnterComponent
+        | Trap::CannotLeaveComponent
+        | Trap::InvalidChar
+        | Trap::InvalidDiscriminant
+        | Trap::ListOutOfBounds
+        | Trap::StringOutOfBounds
+        | Trap::UnalignedPointer => return Some(violated(&trap)),
+        _ => return None,
     };
-    Ok((kind, detail.to_owned()))
+    Some((kind, detail.to_owned()))
+}
+
+/// The violation of the canonical ABI that an error reports, if it is one.
+fn violation(error: &wasmtime::Error, copied_max: u64) -> Option<(FaultKind, String)> {
+    // The cause itself: an engine for backtraces adds context to errors.
+    let message = error.root_cause().to_string();
+    if message.starts_with(TOO_MUCH_COPIED) {
+        let detail = format!("passed more than {copied_max} bytes to the host in one call");
+        return Some((FaultKind::InvalidAction, detail));
+    }
+    let is_text = error.is::<Utf8Error>() || error.is::<DecodeUtf16Error>();
+    let is_known = is_text || VIOLATIONS.iter().any(|it| message.starts_with(it));
+    is_known.then(|| violated(&message))
+}
+
+fn violated(what: &dyn std::fmt::Display) -> (FaultKind, String) {
+    let detail = format!("violated the interface: {what}");
+    (FaultKind::InvalidAction, detail)
 }
 
 fn out_of_fuel((limit, max): (FuelLimit, u64)) -> (FaultKind, String) {
@@ -142,12 +181,34 @@ mod tests {
             (Trap::InvalidDiscriminant.into(), FaultKind::InvalidAction),
             (memory.into(), FaultKind::OutOfMemory),
             (
-                wasmtime::Error::msg("return pointer not aligned"),
+                wasmtime::Error::msg("pointer out of bounds of memory"),
                 FaultKind::InvalidAction,
             ),
         ] {
             let (found, detail) = sorted(error).expect("a fault of the robot");
             assert_eq!(found, kind, "{detail}");
+        }
+    }
+
+    /// What wasmtime returns when the host is short of something, and what nobody has seen yet.
+    #[test]
+    fn what_is_not_known_to_be_the_robots_is_the_hosts() {
+        let system = |kind| wasmtime::Error::from(std::io::Error::from(kind));
+        for error in [
+            system(std::io::ErrorKind::OutOfMemory),
+            system(std::io::ErrorKind::QuotaExceeded).context("cannot create a memfd"),
+            wasmtime::Error::msg("cannot create a memfd"),
+            wasmtime::Error::msg("mmap failed to allocate 0x10000 bytes"),
+            wasmtime::Error::msg("resource limit exceeded: instance count too high at 65"),
+            wasmtime::Error::msg("an error of the next version: unknown handle index 1"),
+            Trap::DebugAssertPointerAligned.into(),
+            Trap::AsyncDeadlock.into(),
+        ] {
+            let sorted = sorted(error);
+            assert!(
+                matches!(sorted, Err(InfrastructureError::Call(_))),
+                "{sorted:?}"
+            );
         }
     }
 }

@@ -3,8 +3,12 @@
 //! wasmtime's own `StoreLimits` counts each memory by itself, so a component
 //! with many memories passes it; this one keeps one account for the store.
 //! Growth beyond the limit traps, so that the verdict names the limit, instead
-//! of letting the robot run on with a failed allocation.
+//! of letting the robot run on with a failed allocation. `memory.grow` and
+//! `table.grow` return -1 in one case only: the module's own maximum forbids the
+//! growth. Growth that the host cannot provide ends the match as a failure of the
+//! host, because a robot that got -1 could play other moves.
 
+use wasmouse_core::game::FaultKind;
 use wasmtime::ResourceLimiter;
 
 use crate::limits::Limits;
@@ -18,6 +22,16 @@ pub(crate) enum LimitExceeded {
     /// Tables.
     #[error("exceeded the table limit: requested {asked} elements, limit {max}")]
     Table { asked: u64, max: u64 },
+}
+
+impl LimitExceeded {
+    /// The fault of a robot that exceeds it.
+    pub(crate) const fn fault(self) -> FaultKind {
+        match self {
+            Self::Memory { .. } => FaultKind::OutOfMemory,
+            Self::Table { .. } => FaultKind::TableLimit,
+        }
+    }
 }
 
 /// A size for people: bytes below a mebibyte, else mebibytes, rounded up.
@@ -87,6 +101,11 @@ impl ResourceLimiter for Limiter {
         Ok(charged.is_some())
     }
 
+    fn memory_grow_failed(&mut self, error: wasmtime::Error) -> wasmtime::Result<()> {
+        // Allowed by `memory_growing`, so by the limit and by the module.
+        Err(error.context("failed to grow a linear memory"))
+    }
+
     fn table_growing(
         &mut self,
         current: usize,
@@ -98,6 +117,11 @@ impl ResourceLimiter for Limiter {
             .map_err(|asked| LimitExceeded::Table { asked, max })?;
         self.table_elements = charged.unwrap_or(self.table_elements);
         Ok(charged.is_some())
+    }
+
+    fn table_grow_failed(&mut self, error: wasmtime::Error) -> wasmtime::Result<()> {
+        // Allowed by `table_growing`.
+        Err(error.context("failed to grow a table"))
     }
 
     fn instances(&self) -> usize {
@@ -158,5 +182,16 @@ mod tests {
         );
         assert!(limiter.table_growing(0, 7, Some(7)).expect("7 of 10"));
         assert!(limiter.table_growing(7, 11, None).is_err());
+    }
+
+    #[test]
+    fn growth_that_was_allowed_and_fails_is_an_error() {
+        let mut limiter = limiter();
+        assert!(limiter.memory_growing(0, 60, None).expect("60 of 100"));
+        let shortage = || wasmtime::Error::from(std::io::Error::from_raw_os_error(12));
+        let error = limiter.memory_grow_failed(shortage()).expect_err("no -1");
+        assert!(!error.is::<LimitExceeded>(), "{error:#}");
+        let error = limiter.table_grow_failed(shortage()).expect_err("no -1");
+        assert!(!error.is::<LimitExceeded>(), "{error:#}");
     }
 }
