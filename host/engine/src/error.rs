@@ -10,6 +10,9 @@ pub enum InfrastructureError {
     /// wasmtime could not set up its engine.
     #[error("failed to set up the WebAssembly engine: {0}")]
     Engine(String),
+    /// This machine's processor cannot run robots as others do.
+    #[error("this processor cannot run robots: {0}")]
+    Processor(String),
     /// A thread could not be started.
     #[error("failed to start a thread: {0}")]
     Thread(#[source] io::Error),

@@ -1,8 +1,8 @@
 //! The wasmtime engine: one constructor, a reason beside every setting.
 //!
 //! Whether two hosts give the same verdict and the same fuel depends on this
-//! file and on the version of wasmtime alone; both are in [`engine_id`], which
-//! goes into every result.
+//! file, the version of wasmtime and the processor that code is made for
+//! (`target`); all are in [`engine_id`], which goes into every result.
 
 use std::num::NonZeroUsize;
 use std::thread;
@@ -17,6 +17,7 @@ use wasmouse_core::record::EngineId;
 
 use super::FRAMES_MAX;
 use super::cost;
+use super::target::TARGET;
 use crate::error::InfrastructureError;
 use crate::limits::Limits;
 
@@ -24,7 +25,7 @@ use crate::limits::Limits;
 pub const WASMTIME_VERSION: &str = "48.0.8";
 
 /// Raised with every change to this file that can change fuel or a verdict.
-pub const ENGINE_REVISION: u32 = 4;
+pub const ENGINE_REVISION: u32 = 5;
 
 /// Wall time after which a match is given up as a failure of the host, in
 /// seconds. All the fuel of the default limits lasts 2 s in a robot like flood and
@@ -41,10 +42,13 @@ const RESIDENT_BYTES_MAX: usize = 1 << 20;
 const EPOCH: Duration = Duration::from_millis(250);
 
 /// What a result depends on besides robot, maze, ruleset and seed: the version
-/// of wasmtime and the revision of its configuration.
+/// of wasmtime, the revision of its configuration, and the processor that code is made for.
+///
+/// Such as `wasmtime-48.0.8+wasmouse.5.x86-64-v2`.
 pub fn engine_id() -> EngineId {
+    let target = TARGET.name;
     EngineId::new(format!(
-        "wasmtime-{WASMTIME_VERSION}+wasmouse.{ENGINE_REVISION}"
+        "wasmtime-{WASMTIME_VERSION}+wasmouse.{ENGINE_REVISION}.{target}"
     ))
 }
 
@@ -57,8 +61,10 @@ pub(crate) const fn match_epochs_max() -> u64 {
 ///
 /// # Errors
 ///
-/// When the machine cannot give the address space for the pool.
+/// When the machine cannot give the address space for the pool, or cannot run what is compiled
+/// for the target.
 pub(crate) fn new_engine(limits: &Limits, matches: u32) -> Result<Engine, InfrastructureError> {
+    TARGET.check()?;
     Engine::new(&engine_config(limits, matches)).map_err(InfrastructureError::engine)
 }
 
@@ -76,8 +82,9 @@ pub fn engine_config(limits: &Limits, matches: u32) -> Config {
 ///
 /// # Errors
 ///
-/// When the machine cannot give the address space for the pool.
+/// As [`new_engine`].
 pub(crate) fn new_backtrace_engine(limits: &Limits) -> Result<Engine, InfrastructureError> {
+    TARGET.check()?;
     let mut config = engine_config(limits, 1);
     config.wasm_backtrace_max_frames(NonZeroUsize::new(FRAMES_MAX));
     config.generate_address_map(true);
@@ -98,6 +105,7 @@ pub(crate) fn new_compiler(limits: &Limits) -> Result<Engine, InfrastructureErro
 /// Everything that decides the compiled code.
 fn compiler_config(limits: &Limits) -> Config {
     let mut config = Config::new();
+    TARGET.apply(&mut config);
 
     // What ends a match. Fuel is exact and reproducible; epochs are the safety
     // net for a host that stands still.

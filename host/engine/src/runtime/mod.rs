@@ -12,6 +12,7 @@ mod guest;
 mod interface;
 mod limiter;
 mod robot;
+mod target;
 
 pub use backtrace::Frame;
 pub(crate) use backtrace::{FRAMES_MAX, frames};
