@@ -34,6 +34,8 @@ mod hostile;
 mod interrupt;
 /// Imports between the folders of the host.
 mod layers;
+/// How the memory of this process is mapped after matches.
+mod mappings;
 /// Mazes, rules and match specifications for the other modules.
 mod matches;
 /// Memory use over many matches.
