@@ -10,8 +10,8 @@ use wasmtime::Store;
 
 use crate::error::InfrastructureError;
 use crate::runtime::{
-    CompiledRobot, Frame, Guest, Runtime, action, briefing, classify, frames, match_epochs_max,
-    sensors,
+    CompiledRobot, Frame, Guest, Instance, Runtime, action, briefing, classify, frames,
+    match_epochs_max, out_of_fuel, sensors,
 };
 
 /// Everything that a match leaves behind besides its result and fuel. Reused from match to
@@ -140,8 +140,8 @@ impl<'a> Runner<'a> {
             }
         };
         let start = (FuelLimit::Start, self.spec.rules.sandbox.start_fuel_max);
-        let (called, _) = self.call(start, |store| robot.instantiate(store))?;
-        let instance = match called.map_err(stop(Phase::Instantiate)) {
+        let instantiated = self.instantiate(robot)?;
+        let instance = match instantiated.map_err(stop(Phase::Instantiate)) {
             Ok(instance) => instance,
             Err(stop) => return Ok(Some(stop)),
         };
@@ -177,6 +177,20 @@ impl<'a> Runner<'a> {
         Ok(None)
     }
 
+    /// Makes the robot's instance, with the fuel that is left of the start's after what the
+    /// instance costs.
+    fn instantiate(
+        &mut self,
+        robot: &CompiledRobot,
+    ) -> Result<Called<Instance>, InfrastructureError> {
+        let max = self.spec.rules.sandbox.start_fuel_max;
+        let Some(fuel) = max.checked_sub(robot.startup_fuel()) else {
+            return Ok(Err(out_of_fuel((FuelLimit::Start, max))));
+        };
+        let (called, _) = self.call((FuelLimit::Start, fuel), |store| robot.instantiate(store))?;
+        Ok(called)
+    }
+
     /// The fuel of the next step: its own limit, or what is left of the match's.
     fn step_fuel_limit(&self) -> (FuelLimit, u64) {
         let step = self.spec.rules.sandbox.step_fuel_max;
@@ -203,7 +217,8 @@ impl<'a> Runner<'a> {
                 let limits = &self.spec.rules.sandbox;
                 let max = match limit {
                     FuelLimit::Match => limits.match_fuel_max,
-                    FuelLimit::Start | FuelLimit::Step => fuel,
+                    FuelLimit::Start => limits.start_fuel_max,
+                    FuelLimit::Step => fuel,
                 };
                 *self.frames = frames(&error);
                 Err(classify(&error, (limit, max), limits.host_call_bytes_max)?)

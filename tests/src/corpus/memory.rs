@@ -1,14 +1,21 @@
 //! Memory: linear memories, tables and segments, as many and as large as they get.
 
-use super::case::{Case, fault, fault_in, harmless, over_limit, rejected};
+use super::case::{Case, fault, fault_in, harmless, out_of_start_fuel, over_limit, rejected};
+use crate::composite::Composite;
 use crate::module::{DRIVE_ON, Module};
 
 /// The cases 24 to 34.
 pub fn cases() -> Vec<Case> {
-    [memories(), tables(), proposals(), segments()]
-        .into_iter()
-        .flatten()
-        .collect()
+    [
+        memories(),
+        tables(),
+        proposals(),
+        segments(),
+        instantiation(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 /// A robot with that memory and these fields.
@@ -303,4 +310,74 @@ fn segments() -> Vec<Case> {
             with(r#"(memory (export "memory") 4096)"#, &data)
         }),
     ]
+}
+
+/// What is prepared for each match before anything runs.
+fn instantiation() -> Vec<Case> {
+    let functions = |count| format!("(func $f) (elem func {})", "$f ".repeat(count));
+    let into_imported = |count| {
+        format!(
+            r#"(import "env" "table" (table 0 funcref)) (func $f)
+            (elem (table 0) (i32.const 0) func {})"#,
+            "$f ".repeat(count)
+        )
+    };
+    let data = |distance: usize| {
+        let text = "x".repeat(512 << 10);
+        let segments: String = (0..60)
+            .map(|at| {
+                format!(
+                    r#"(data (i32.const {}) "{text}")"#,
+                    (1 << 16) + at * distance
+                )
+            })
+            .collect();
+        with(r#"(memory (export "memory") 4096)"#, &segments)
+    };
+    vec![
+        Case::new(
+            &[33],
+            "100000-passive-elements-in-60-instances",
+            out_of_start_fuel("instantiate"),
+            move || instances(60, &functions(100_000)),
+        ),
+        Case::new(
+            &[33],
+            "1000-passive-elements-in-60-instances",
+            harmless(),
+            move || instances(60, &functions(1000)),
+        ),
+        Case::new(
+            &[33],
+            "60-instances-that-fill-one-table",
+            out_of_start_fuel("instantiate"),
+            move || instances(60, &into_imported(90_000)),
+        ),
+        // Too far apart for an image, so they are copied for each match.
+        Case::new(
+            &[33],
+            "30-mib-of-data-in-60-segments",
+            out_of_start_fuel("instantiate"),
+            move || data(4 << 20),
+        )
+        .megabytes(ALL_MEMORY),
+        Case::new(
+            &[33],
+            "30-mib-of-data-in-one-image",
+            harmless(),
+            move || data(512 << 10),
+        )
+        .megabytes(ALL_MEMORY),
+    ]
+}
+
+/// A robot beside that many instances of a module with these fields.
+fn instances(count: usize, fields: &str) -> Vec<u8> {
+    let instance = r#"(core instance (instantiate $many (with "env" (instance $libc))))"#;
+    Composite {
+        before: &format!("(core module $many {fields}) {}", instance.repeat(count)),
+        memory: r#"(memory (export "memory") 1) (table (export "table") 90000 funcref)"#,
+        ..Composite::default()
+    }
+    .component()
 }

@@ -18,6 +18,7 @@ use wasmtime::component::Component;
 
 use wasmouse_core::Digest;
 
+use super::artefact;
 use super::compiled_code::{CompiledCode, Destination};
 use crate::error::InfrastructureError;
 
@@ -55,7 +56,8 @@ impl Cache {
             // SAFETY: the bytes are what `store` wrote: the folder is private to
             // this user, the digest fits, and the name includes wasmtime's own
             // hash of everything that the code depends on.
-            unsafe { Component::deserialize(engine, payload) }.ok()
+            let loaded = unsafe { artefact::load(engine, payload) }.ok()?;
+            Some(loaded.0)
         });
         if loaded.is_none() {
             // Damaged, by a crash or a bad disk: make room for a good one. If
@@ -99,15 +101,17 @@ impl Cache {
         engine: &Engine,
         digest: &Digest,
         component: &Component,
+        startup_fuel: u64,
     ) -> Result<(), InfrastructureError> {
         let path = self.entry(engine, digest);
         let failed = |reason: String| InfrastructureError::Cache {
             path: path.clone(),
             reason,
         };
-        let payload = component
+        let code = component
             .serialize()
             .map_err(|error| failed(format!("{error:#}")))?;
+        let payload = artefact::seal(code, startup_fuel);
         write_atomically(&self.folder, &path, &payload).map_err(|error| failed(error.to_string()))
     }
 

@@ -127,7 +127,8 @@ fn violated(what: &dyn std::fmt::Display) -> (FaultKind, String) {
     (FaultKind::InvalidAction, detail)
 }
 
-fn out_of_fuel((limit, max): (FuelLimit, u64)) -> (FaultKind, String) {
+/// The fault of a robot that needs more fuel than that limit, which has that size.
+pub(crate) fn out_of_fuel((limit, max): (FuelLimit, u64)) -> (FaultKind, String) {
     let of = match limit {
         FuelLimit::Start => "start",
         FuelLimit::Step => "per-step",

@@ -1,6 +1,7 @@
 //! The wasmtime side: one engine configuration, the functions a robot may call, its limits,
 //! compiled code and the cache of it.
 
+mod artefact;
 mod backtrace;
 mod bindings;
 mod cache;
@@ -12,15 +13,17 @@ mod guest;
 mod interface;
 mod limiter;
 mod robot;
+mod startup;
 mod target;
 
+pub(crate) use artefact::precompile;
 pub use backtrace::Frame;
 pub(crate) use backtrace::{FRAMES_MAX, frames};
-pub(crate) use bindings::{action, briefing, sensors};
+pub(crate) use bindings::{Robot as Instance, action, briefing, sensors};
 pub use cache::Cache;
 pub(crate) use compiled_code::{CompiledCode, Destination};
 pub use config::{ENGINE_REVISION, MATCH_SECONDS_MAX, WASMTIME_VERSION, engine_config, engine_id};
 pub(crate) use config::{match_epochs_max, new_compiler};
-pub(crate) use fault::classify;
+pub(crate) use fault::{classify, out_of_fuel};
 pub(crate) use guest::Guest;
 pub use robot::{CacheUse, CompiledRobot, Runtime};

@@ -4,12 +4,14 @@ use wasmouse_core::Digest;
 use wasmtime::component::{Component, InstancePre, Linker};
 use wasmtime::{Engine, Store};
 
+use super::artefact;
 use super::bindings::{Robot, RobotPre};
 use super::cache::Cache;
 use super::config::{self, Clock};
 use super::guest::{self, Guest};
 use super::interface;
 use super::limiter::Limiter;
+use super::startup::startup_fuel;
 use crate::admission::{Rejection, ResourceRequirements, examine};
 use crate::error::InfrastructureError;
 use crate::limits::Limits;
@@ -29,6 +31,8 @@ pub struct Runtime {
 pub struct CompiledRobot {
     pre: RobotPre<Guest>,
     digest: Digest,
+    /// What instantiating it costs besides the fuel of the code that runs.
+    startup_fuel: u64,
     cache: CacheUse,
 }
 
@@ -124,12 +128,13 @@ impl Runtime {
         digest: Digest,
     ) -> Result<CompiledRobot, Rejection> {
         // SAFETY: the caller's promise is the one that wasmtime asks for.
-        let compiled = unsafe { Component::deserialize(&self.engine, code) }
+        let (compiled, startup_fuel) = unsafe { artefact::load(&self.engine, code) }
             .map_err(|error| Rejection::Invalid(format!("{error:#}")))?;
         let pre = self.link(&compiled)?;
         Ok(CompiledRobot {
             pre,
             digest,
+            startup_fuel,
             cache: CacheUse::Off,
         })
     }
@@ -157,15 +162,22 @@ impl Runtime {
     pub fn admit(&self, bytes: &[u8]) -> Result<CompiledRobot, Rejection> {
         let component = examine(bytes, &self.limits).component?;
         let digest = Digest::of(bytes);
-        let (compiled, cache) = self.compile(&component, &digest)?;
+        let startup_fuel = startup_fuel(&component);
+        let (compiled, cache) = self.compile(&component, &digest, startup_fuel)?;
         let pre = self.link(&compiled)?;
-        Ok(CompiledRobot { pre, digest, cache })
+        Ok(CompiledRobot {
+            pre,
+            digest,
+            startup_fuel,
+            cache,
+        })
     }
 
     fn compile(
         &self,
         component: &[u8],
         digest: &Digest,
+        startup_fuel: u64,
     ) -> Result<(Component, CacheUse), Rejection> {
         let Some(cache) = &self.cache else {
             return Ok((self.compile_now(component)?, CacheUse::Off));
@@ -174,7 +186,7 @@ impl Runtime {
             return Ok((compiled, CacheUse::Hit));
         }
         let compiled = self.compile_now(component)?;
-        let cache_use = match cache.store(&self.engine, digest, &compiled) {
+        let cache_use = match cache.store(&self.engine, digest, &compiled, startup_fuel) {
             Ok(()) => CacheUse::Stored,
             Err(error) => CacheUse::Failed(error.to_string()),
         };
@@ -214,6 +226,11 @@ impl CompiledRobot {
             tables: required.num_tables,
             table_elements: required.max_initial_table_size.unwrap_or(0),
         })
+    }
+
+    /// What instantiating it costs besides the fuel of the code that runs.
+    pub(crate) const fn startup_fuel(&self) -> u64 {
+        self.startup_fuel
     }
 
     pub(crate) fn instantiate(&self, store: &mut Store<Guest>) -> wasmtime::Result<Robot> {

@@ -107,7 +107,6 @@ fn compile(engine: &Engine, file: &[u8], order: &CompileOrder) -> (Examined, Vec
 }
 
 fn precompile(engine: &Engine, component: &[u8]) -> Result<Vec<u8>, Rejection> {
-    engine
-        .precompile_component(component)
+    crate::runtime::precompile(engine, component)
         .map_err(|error| Rejection::Invalid(format!("{error:#}")))
 }
