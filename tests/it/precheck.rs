@@ -97,6 +97,71 @@ fn bombs_are_rejected_for_what_makes_them_one() {
         (bombs::long_name(90_000), "bytes in a name"),
         (bombs::exponential(30), "core instances"),
         (bombs::nested_components(900), "nested components"),
+        (
+            bombs::reference_globals(60_000),
+            "ms of estimated time to compile a function",
+        ),
+        (
+            bombs::written_globals(60_000, 0),
+            "ms of estimated time to compile a function",
+        ),
+        (
+            bombs::placed_data(20_000),
+            "MiB of estimated memory to compile a function",
+        ),
+        (
+            bombs::escaped_functions(30_000, 200),
+            "ms of estimated time to compile the file",
+        ),
+        (bombs::function_types(3, 5000, 20), "core function types"),
+        (
+            bombs::sparse_memories(2, 8),
+            "bytes of images of memories and tables",
+        ),
+        (
+            bombs::sparse_tables(50, 16, 100_000),
+            "bytes of images of memories and tables",
+        ),
+        (bombs::sparse_tables(50, 33, 100_000), "tables"),
+        (bombs::many_exports(3, 90_000), "items of core modules"),
+        (bombs::many_modules(900), "core modules"),
+        (
+            bombs::elements_of_instances(62, 90_000),
+            "elements in element segments",
+        ),
+        (
+            bombs::data_of_instances(8, 9_000_000),
+            "bytes of data segments after instantiation",
+        ),
+        (
+            bombs::equal_targets(200, 20_000, 200),
+            "ms of estimated time to compile the file",
+        ),
+        (
+            bombs::declared_instances(1900, 18),
+            "parts of component types to compare",
+        ),
+        (
+            bombs::compared_instances(2000, 100, 10),
+            "parts of component types to compare",
+        ),
+        (
+            bombs::exported_instances(2000, 100, 10),
+            "parts of component types to compare",
+        ),
+        (
+            bombs::doubled_instances(18),
+            "parts of component types to compare",
+        ),
+        (
+            bombs::nested_component_types(60),
+            "parts of component types to compare",
+        ),
+        (bombs::module_types(900, 100), "component items"),
+        (
+            bombs::adapters(1000, 2),
+            "lowered functions after instantiation",
+        ),
         (bombs::doubled_tuple(16), "parts in a component type"),
         (bombs::wide_record(9_000), "parts in a component type"),
     ] {
@@ -123,6 +188,10 @@ fn samples() -> Vec<Vec<u8>> {
         bombs::simd(2000),
         bombs::types(9),
         bombs::constant(9),
+        bombs::elements_of_instances(3, 10),
+        bombs::data_of_instances(3, 10),
+        bombs::adapters(4, 2),
+        bombs::many_exports(2, 10),
     ]
 }
 
@@ -146,6 +215,16 @@ fn set(limits: &mut Limits, measure: Measure, max: u64) {
         Measure::ModuleItems => admission.module_items_max = small,
         Measure::FunctionTypes => admission.function_types_max = small,
         Measure::Functions => admission.functions_max = small,
+        Measure::Modules => admission.modules_max = small,
+        Measure::CoreInstanceBytes => admission.core_instance_bytes_max = small,
+        Measure::ComponentInstanceBytes => admission.component_instance_bytes_max = small,
+        Measure::LoweredFunctions => admission.lowered_functions_max = small,
+        Measure::FileItems => admission.file_items_max = small,
+        Measure::FileFunctionTypes => admission.file_function_types_max = small,
+        Measure::Elements => admission.elements_max = small,
+        Measure::DataBytes => admission.data_bytes_max = max,
+        Measure::ImageBytes => admission.image_bytes_max = max,
+        Measure::TypeWork => admission.type_work_max = small,
         Measure::Values => admission.values_max = small,
         Measure::ConstBytes => admission.const_bytes_max = small,
         Measure::Locals => admission.locals_max = small,

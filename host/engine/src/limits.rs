@@ -32,7 +32,7 @@ impl Limits {
 ///
 /// Compiling cannot be interrupted and takes time and memory that grow with the
 /// square or the cube of some sizes, so files of a few KB can take minutes and
-/// gigabytes. Each limit is well above what robots in Rust, JavaScript (QuickJS,
+/// gigabytes. What the engine would refuse to load is refused here too. Each limit is well above what robots in Rust, JavaScript (QuickJS,
 /// StarlingMonkey) and Python have been seen to need; `admission/precheck/mod.rs` has the
 /// table. Times are of one 2026 x86-64 core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -83,6 +83,42 @@ pub struct AdmissionLimits {
     /// Functions in the file. Stops a million empty ones: 9 MB, 93 s and 6 GB.
     /// Default 60,000.
     pub functions_max: u32,
+    /// Core modules in the file. Stops many small ones, each of which is within the
+    /// limits on one module. Default 200.
+    pub modules_max: u32,
+    /// State that the engine keeps for an instance of one core module, in bytes: for
+    /// imports, globals, tables, memories, segments, and functions that escape. It is
+    /// also the size of a slot of the engine, which would refuse to load what is
+    /// larger. Default 1 MiB.
+    pub core_instance_bytes_max: u32,
+    /// The same for all instances together, in bytes. Default 2 MiB.
+    pub component_instance_bytes_max: u32,
+    /// Lowered functions, counted for every instantiation. Stops adapters between
+    /// components: 100 KB of file become thousands of generated modules. Default 500.
+    pub lowered_functions_max: u32,
+    /// Items of all core modules in the file: imports, exports, globals, tables,
+    /// memories, segments. Stops many modules that are each just under the limit on
+    /// items of one kind. Default 200,000.
+    pub file_items_max: u32,
+    /// Function types of all core modules in the file, and those that components
+    /// declare. Stops many modules that are each just under the limit on function
+    /// types of one: 7.6 MB, 49 s and 1.4 GB. Default 10,000.
+    pub file_function_types_max: u32,
+    /// Elements of element segments, counted for every instantiation. Stops segments
+    /// that every match sets up again: 62 instances of a module with 100,000 elements
+    /// took 232 ms each. Default 200,000.
+    pub elements_max: u32,
+    /// Bytes of data segments, counted for every instantiation. Stops copying the same
+    /// megabytes into many memories in every match. Default 64 MiB.
+    pub data_bytes_max: u64,
+    /// Images of memories and tables that become a part of the compiled robot, in
+    /// bytes. Stops files of a few KB whose segments lie far apart: 99 KB became
+    /// 669 MB. Default 128 MiB.
+    pub image_bytes_max: u64,
+    /// Parts of component types, counted again for every item whose type has them.
+    /// Stops types that are compared or copied again and again: 69 KB took 40 s to
+    /// validate. Default 1,000,000.
+    pub type_work_max: u32,
     /// Parameters and results together, of a function or block type. Stops calls
     /// and branches that move a thousand values each. Default 200.
     pub values_max: u32,
@@ -145,6 +181,16 @@ impl AdmissionLimits {
         module_items_max: 100_000,
         function_types_max: 5_000,
         functions_max: 60_000,
+        modules_max: 200,
+        core_instance_bytes_max: 1 << 20,
+        component_instance_bytes_max: 2 << 20,
+        lowered_functions_max: 500,
+        file_items_max: 200_000,
+        file_function_types_max: 10_000,
+        elements_max: 200_000,
+        data_bytes_max: 64 << 20,
+        image_bytes_max: 128 << 20,
+        type_work_max: 1_000_000,
         values_max: 200,
         const_bytes_max: 200,
         locals_max: 12_000,
@@ -161,7 +207,15 @@ impl AdmissionLimits {
         work_ms_max: 65_000,
     };
 
-    /// The identity of the limits. Canonical encoding `wasmouse.admission.1`
+    /// Core instances that an admitted component can have: those in the file, and one for every
+    /// module that is generated to move values between components. There are at most as many
+    /// of them as lowered functions.
+    pub const fn instances_max(&self) -> u32 {
+        self.core_instances_max
+            .saturating_add(self.lowered_functions_max)
+    }
+
+    /// The identity of the limits. Canonical encoding `wasmouse.admission.2`
     /// ([`DigestBuilder`]): the fields as numbers, in their order.
     pub fn digest(&self) -> Digest {
         let Self {
@@ -179,6 +233,16 @@ impl AdmissionLimits {
             module_items_max,
             function_types_max,
             functions_max,
+            modules_max,
+            core_instance_bytes_max,
+            component_instance_bytes_max,
+            lowered_functions_max,
+            file_items_max,
+            file_function_types_max,
+            elements_max,
+            data_bytes_max,
+            image_bytes_max,
+            type_work_max,
             values_max,
             const_bytes_max,
             locals_max,
@@ -194,7 +258,7 @@ impl AdmissionLimits {
             function_work_ms_max,
             work_ms_max,
         } = *self;
-        DigestBuilder::new("wasmouse.admission.1")
+        DigestBuilder::new("wasmouse.admission.2")
             .numbers(&[
                 component_bytes_max,
                 core_instances_max.into(),
@@ -210,6 +274,16 @@ impl AdmissionLimits {
                 module_items_max.into(),
                 function_types_max.into(),
                 functions_max.into(),
+                modules_max.into(),
+                core_instance_bytes_max.into(),
+                component_instance_bytes_max.into(),
+                lowered_functions_max.into(),
+                file_items_max.into(),
+                file_function_types_max.into(),
+                elements_max.into(),
+                data_bytes_max,
+                image_bytes_max,
+                type_work_max.into(),
                 values_max.into(),
                 const_bytes_max.into(),
                 locals_max.into(),

@@ -148,21 +148,21 @@ fn compiler_config(limits: &Limits) -> Config {
 fn pool(limits: &Limits, matches: u32) -> PoolingAllocationConfig {
     let mut pool = PoolingAllocationConfig::new();
     pool.total_component_instances(matches);
-    pool.total_core_instances(matches.saturating_mul(limits.admission.core_instances_max));
+    let instances_max = limits.admission.instances_max();
+    pool.total_core_instances(matches.saturating_mul(instances_max));
     pool.total_memories(matches.saturating_mul(limits.admission.memories_max));
     pool.total_tables(matches.saturating_mul(limits.admission.tables_max));
     pool.total_gc_heaps(0);
-    pool.max_core_instances_per_component(limits.admission.core_instances_max);
+    pool.max_core_instances_per_component(instances_max);
     pool.max_memories_per_component(limits.admission.memories_max);
     pool.max_tables_per_component(limits.admission.tables_max);
     pool.max_memories_per_module(limits.admission.memories_max);
     pool.max_tables_per_module(limits.admission.tables_max);
     pool.max_memory_size(bytes(limits.sandbox.memory_bytes_max));
     pool.table_elements(bytes(limits.sandbox.table_elements_max));
-    // Wasmtime's metadata of one component or core instance. Large interpreters
-    // need well under this.
-    pool.max_component_instance_size(1 << 20);
-    pool.max_core_instance_size(1 << 20);
+    // Admission has computed both, so that it is not the pool that refuses a robot.
+    pool.max_component_instance_size(bytes(limits.admission.component_instance_bytes_max.into()));
+    pool.max_core_instance_size(bytes(limits.admission.core_instance_bytes_max.into()));
     keep_pages(&mut pool);
     pool
 }

@@ -64,7 +64,7 @@ impl Limiter {
             table_elements_max: limits.sandbox.table_elements_max,
             memories_max: to_usize(limits.admission.memories_max),
             tables_max: to_usize(limits.admission.tables_max),
-            instances_max: to_usize(limits.admission.core_instances_max),
+            instances_max: to_usize(limits.admission.instances_max()),
         }
     }
 }

@@ -4,7 +4,7 @@ use wasmparser::{Encoding, Parser, Payload, ValidPayload, Validator, WasmFeature
 
 use super::super::place::FunctionPlace;
 use super::super::rejection::Rejection;
-use super::component::{self, Components};
+use super::component::Components;
 use super::function::Functions;
 use super::measure::{Gauge, Measure};
 use super::module::Module;
@@ -14,7 +14,7 @@ use crate::limits::Limits;
 
 /// The proposals that a robot may use: those that `compiler_config` leaves on.
 /// What this lets through by mistake, the engine rejects when it compiles.
-const FEATURES: WasmFeatures = WasmFeatures::WASM2
+pub(super) const FEATURES: WasmFeatures = WasmFeatures::WASM2
     .union(WasmFeatures::TAIL_CALL)
     .union(WasmFeatures::EXTENDED_CONST)
     .union(WasmFeatures::MULTI_MEMORY)
@@ -78,12 +78,12 @@ impl Check<'_> {
         let mut parser = Parser::new(0);
         parser.set_features(FEATURES);
         for payload in parser.parse_all(bytes) {
-            self.payload(&payload?)?;
+            self.payload(&payload?, bytes)?;
         }
         Ok(())
     }
 
-    fn payload(&mut self, payload: &Payload<'_>) -> Result<(), Rejection> {
+    fn payload(&mut self, payload: &Payload<'_>, bytes: &[u8]) -> Result<(), Rejection> {
         match (payload, &mut self.module) {
             (
                 Payload::Version {
@@ -97,7 +97,13 @@ impl Check<'_> {
             }
             (Payload::End(_), _) => {}
             (_, Some(module)) => module.section(payload, &mut self.gauge)?,
-            (_, None) => self.components.section(payload, &mut self.gauge)?,
+            (_, None) => {
+                let validator = &mut self.validator;
+                let gauge = &mut self.gauge;
+                if self.components.section(payload, bytes, validator, gauge)? {
+                    return Ok(());
+                }
+            }
         }
         match self.validator.payload(payload)? {
             ValidPayload::Func(function, body) => {
@@ -109,9 +115,7 @@ impl Check<'_> {
         }
         match payload {
             Payload::End(byte) => self.end(*byte),
-            _ => self
-                .components
-                .validated(payload, self.validator.types(0), &mut self.gauge),
+            _ => Ok(()),
         }
     }
 
@@ -120,7 +124,7 @@ impl Check<'_> {
             Encoding::Module => {
                 self.module = Some(Module::default());
                 self.modules += 1;
-                Ok(())
+                self.gauge.add(Measure::Modules, 1, byte)
             }
             Encoding::Component => {
                 self.is_component = true;
@@ -130,17 +134,17 @@ impl Check<'_> {
     }
 
     fn end(&mut self, byte: u64) -> Result<(), Rejection> {
-        match self.module.take() {
-            None => self.components.end(&mut self.gauge, byte),
-            Some(module) if self.is_component => {
-                self.components.module(module.requirements);
-                Ok(())
-            }
-            // The component around it instantiates it once.
-            Some(module) => {
-                component::check_requirements(&module.requirements, &mut self.gauge, byte)
-            }
+        let Some(module) = &mut self.module else {
+            return self.components.end(&mut self.gauge, byte);
+        };
+        let requirements = module.end(&mut self.gauge, byte)?;
+        self.module = None;
+        if self.is_component {
+            self.components.module(requirements);
+            return Ok(());
         }
+        // The component around it instantiates it once.
+        requirements.check(&mut self.gauge, byte)
     }
 
     /// Adds to a rejection in which module and function it was found.

@@ -1,14 +1,18 @@
 //! The sections of components: counts, names, types, and what is instantiated.
 
-use wasmparser::types::TypesRef;
 use wasmparser::{
-    CanonicalFunction, ComponentType, ComponentTypeDeclaration, CoreType, InstanceTypeDeclaration,
-    Payload,
+    CanonicalFunction, ComponentExternalKind, ComponentInstance, ComponentType,
+    ComponentTypeDeclaration, CoreType, Instance, InstanceTypeDeclaration, ModuleTypeDeclaration,
+    Payload, RecGroup, SectionLimited, Validator,
 };
 
 use super::super::rejection::Rejection;
-use super::expansion::{Expansion, Requirements, Unknown};
+use super::declared::{Declared, of_core_type};
+use super::expansion::{Expansion, Requirements};
+use super::function::arity_of;
+use super::items::each;
 use super::measure::{Gauge, Measure};
+use super::module::entry_ns;
 use super::parts::Parts;
 
 /// The components that are being read.
@@ -31,7 +35,7 @@ impl Components {
     /// A component ends.
     pub(super) fn end(&mut self, gauge: &mut Gauge<'_>, byte: u64) -> Result<(), Rejection> {
         match self.expansion.end() {
-            Some(requirements) => check_requirements(&requirements, gauge, byte),
+            Some(requirements) => requirements.check(gauge, byte),
             None => Ok(()),
         }
     }
@@ -41,7 +45,8 @@ impl Components {
         self.expansion.module(requirements);
     }
 
-    /// Checks a section before it is validated.
+    /// Checks a section, and validates it if it has items that are checked one by one. Returns
+    /// whether it has.
     ///
     /// # Errors
     ///
@@ -50,123 +55,194 @@ impl Components {
     pub(super) fn section(
         &mut self,
         payload: &Payload<'_>,
+        file: &[u8],
+        validator: &mut Validator,
         gauge: &mut Gauge<'_>,
-    ) -> Result<(), Rejection> {
-        let start = payload.as_section().map_or(0, |(_, range)| range.start);
-        let unknown = |unknown: Unknown| match unknown {
-            Unknown::Foreign => Rejection::Invalid(format!(
-                "it instantiates a component or module that it is handed or takes out of an \
-                 instance, at byte {start}"
-            )),
-            Unknown::Missing => Rejection::Invalid(format!(
-                "it instantiates a component or module that does not exist, at byte {start}"
-            )),
-        };
+    ) -> Result<bool, Rejection> {
         let is_outermost = self.expansion.depth() == 1;
         match payload {
-            Payload::ComponentTypeSection(section) => {
-                self.items(section.count(), gauge, start)?;
-                for ty in section.clone() {
-                    let inner = declarations(&ty?);
-                    self.add_items(inner, gauge, start)?;
-                }
-            }
-            Payload::CoreTypeSection(section) => {
-                self.items(section.count(), gauge, start)?;
-                for ty in section.clone() {
-                    if let CoreType::Module(inner) = ty? {
-                        self.add_items(count(inner.len()), gauge, start)?;
-                    }
-                }
-            }
-            Payload::InstanceSection(section) => {
-                self.items(section.count(), gauge, start)?;
-                for instance in section.clone() {
-                    self.expansion.core_instance(&instance?).map_err(unknown)?;
-                }
-            }
+            Payload::CoreTypeSection(section) => each(section, file, |byte, ty, alone| {
+                self.core_type(&ty, gauge, byte)?;
+                Ok(validator.core_type_section(&SectionLimited::new(alone)?)?)
+            })?,
+            Payload::ComponentTypeSection(section) => each(section, file, |byte, ty, alone| {
+                self.add_items(1 + declarations(&ty), gauge, byte)?;
+                core_types(&ty, gauge, byte)?;
+                let work = Declared::work(&ty, validator, &mut self.parts);
+                gauge.add(Measure::TypeWork, work, byte)?;
+                Ok(validator.component_type_section(&SectionLimited::new(alone)?)?)
+            })?,
+            Payload::InstanceSection(section) => each(section, file, |byte, instance, alone| {
+                self.core_instance(&instance, validator, gauge, byte)?;
+                Ok(validator.instance_section(&SectionLimited::new(alone)?)?)
+            })?,
             Payload::ComponentInstanceSection(section) => {
-                self.items(section.count(), gauge, start)?;
-                for instance in section.clone() {
-                    self.expansion.instance(&instance?).map_err(unknown)?;
-                }
+                each(section, file, |byte, instance, alone| {
+                    self.instance(&instance, validator, gauge, byte)?;
+                    Ok(validator.component_instance_section(&SectionLimited::new(alone)?)?)
+                })?;
             }
             Payload::ComponentAliasSection(section) => {
-                self.items(section.count(), gauge, start)?;
-                for alias in section.clone() {
-                    self.expansion.alias(&alias?);
-                }
+                each(section, file, |byte, alias, alone| {
+                    self.add_items(1, gauge, byte)?;
+                    self.expansion.alias(&alias);
+                    Ok(validator.component_alias_section(&SectionLimited::new(alone)?)?)
+                })?
             }
             Payload::ComponentImportSection(section) => {
-                self.items(section.count(), gauge, start)?;
-                for import in section.clone() {
-                    let import = import?;
+                each(section, file, |byte, import, alone| {
                     let name = import.name.name;
-                    gauge.note(Measure::NameBytes, count(name.len()), start)?;
+                    self.named(name, gauge, byte)?;
                     self.expansion.import(import.ty);
+                    let parts = &mut self.parts;
+                    let of = |types| parts.of_reference(types, &import.ty);
+                    let found = validator.types(0).map_or(1, of);
+                    // When it is declared, and when the component ends.
+                    gauge.add(Measure::TypeWork, found.saturating_mul(2), byte)?;
                     if is_outermost {
                         self.imports.push(name.to_owned());
                     }
-                }
+                    Ok(validator.component_import_section(&SectionLimited::new(alone)?)?)
+                })?;
             }
             Payload::ComponentExportSection(section) => {
-                self.items(section.count(), gauge, start)?;
-                for export in section.clone() {
-                    let export = export?;
+                each(section, file, |byte, export, alone| {
                     let name = export.name.name;
-                    gauge.note(Measure::NameBytes, count(name.len()), start)?;
+                    self.named(name, gauge, byte)?;
                     self.expansion.export(export.kind, export.index);
+                    let parts = &mut self.parts;
+                    let found = validator.types(0).map_or(1, |types| {
+                        let item = parts.of_item(types, export.kind, export.index);
+                        let of = |ty| parts.of_reference(types, ty);
+                        item.saturating_add(export.ty.as_ref().map_or(0, of))
+                    });
+                    gauge.add(Measure::TypeWork, found.saturating_mul(2), byte)?;
                     if is_outermost {
                         self.exports.push(name.to_owned());
                     }
-                }
+                    Ok(validator.component_export_section(&SectionLimited::new(alone)?)?)
+                })?;
             }
             Payload::ComponentCanonicalSection(section) => {
-                self.items(section.count(), gauge, start)?;
+                each(section, file, |byte, function, alone| {
+                    self.canonical(&function, validator, gauge, byte)?;
+                    Ok(validator.component_canonical_section(&SectionLimited::new(alone)?)?)
+                })?;
             }
-            _ => {}
+            _ => return Ok(false),
         }
-        Ok(())
+        // Whether a section of its kind may stand here is not known from no items.
+        Ok(payload_has_items(payload))
     }
 
-    /// Checks what can only be known of a section that has been validated: the
-    /// types of functions that are lifted and lowered.
-    ///
-    /// # Errors
-    ///
-    /// [`Rejection::OverLimit`].
-    pub(super) fn validated(
+    fn core_type(
         &mut self,
-        payload: &Payload<'_>,
-        types: Option<TypesRef<'_>>,
+        ty: &CoreType<'_>,
         gauge: &mut Gauge<'_>,
+        byte: u64,
     ) -> Result<(), Rejection> {
-        let (Payload::ComponentCanonicalSection(section), Some(types)) = (payload, types) else {
+        let inner = match ty {
+            CoreType::Module(inner) => count(inner.len()),
+            CoreType::Rec(_) => 0,
+        };
+        self.add_items(1 + inner, gauge, byte)?;
+        core_type(ty, gauge, byte)?;
+        gauge.add(Measure::TypeWork, of_core_type(ty), byte)
+    }
+
+    fn core_instance(
+        &mut self,
+        instance: &Instance<'_>,
+        validator: &Validator,
+        gauge: &mut Gauge<'_>,
+        byte: u64,
+    ) -> Result<(), Rejection> {
+        self.add_items(1, gauge, byte)?;
+        self.expansion
+            .core_instance(instance)
+            .map_err(|unknown| unknown.reject(byte))?;
+        let parts = match (instance, validator.types(0)) {
+            (Instance::Instantiate { module_index, .. }, Some(types)) => {
+                let module = ComponentExternalKind::Module;
+                self.parts.of_item(types, module, *module_index)
+            }
+            _ => 1,
+        };
+        gauge.add(Measure::TypeWork, parts, byte)
+    }
+
+    fn instance(
+        &mut self,
+        instance: &ComponentInstance<'_>,
+        validator: &Validator,
+        gauge: &mut Gauge<'_>,
+        byte: u64,
+    ) -> Result<(), Rejection> {
+        self.add_items(1, gauge, byte)?;
+        self.expansion
+            .instance(instance)
+            .map_err(|unknown| unknown.reject(byte))?;
+        let Some(types) = validator.types(0) else {
             return Ok(());
         };
-        for function in section.clone().into_iter_with_offsets() {
-            let (byte, function) = function?;
-            let parts = match function {
-                CanonicalFunction::Lift { type_index, .. } => {
-                    self.parts.of_function_type(types, type_index)
-                }
-                CanonicalFunction::Lower { func_index, .. } => {
-                    let parts = self.parts.of_function(types, func_index);
-                    if let Some(requirements) = self.expansion.requirements() {
-                        requirements.adapter_values =
-                            requirements.adapter_values.saturating_add(parts);
-                    }
-                    parts
-                }
-                _ => 0,
-            };
-            gauge.note(Measure::TypeParts, parts, byte)?;
-        }
-        Ok(())
+        let mut items = match instance {
+            ComponentInstance::Instantiate {
+                component_index,
+                args,
+            } => {
+                let component = ComponentExternalKind::Component;
+                let arguments = args.iter().map(|it| (it.kind, it.index));
+                Vec::from_iter([(component, *component_index)].into_iter().chain(arguments))
+            }
+            ComponentInstance::FromExports(exports) => {
+                Vec::from_iter(exports.iter().map(|it| (it.kind, it.index)))
+            }
+        };
+        items.drain(..).try_for_each(|(kind, index)| {
+            let parts = self.parts.of_item(types, kind, index);
+            gauge.add(Measure::TypeWork, parts, byte)
+        })
     }
 
-    fn items(&mut self, items: u32, gauge: &mut Gauge<'_>, byte: u64) -> Result<(), Rejection> {
-        self.add_items(items.into(), gauge, byte)
+    /// A function that is lifted, lowered, or built in.
+    fn canonical(
+        &mut self,
+        function: &CanonicalFunction,
+        validator: &Validator,
+        gauge: &mut Gauge<'_>,
+        byte: u64,
+    ) -> Result<(), Rejection> {
+        self.add_items(1, gauge, byte)?;
+        let Some(types) = validator.types(0) else {
+            return Ok(());
+        };
+        let (parts, bytes) = match function {
+            CanonicalFunction::Lift { type_index, .. } => {
+                let parts = self.parts.of_function_type(types, *type_index);
+                (parts, FUNCTION_BYTES)
+            }
+            CanonicalFunction::Lower { func_index, .. } => {
+                let parts = self.parts.of_function(types, *func_index);
+                if let Some(requirements) = self.expansion.requirements() {
+                    let add = |sum: &mut u64, more| *sum = sum.saturating_add(more);
+                    add(&mut requirements.adapter_values, parts);
+                    add(&mut requirements.lowered_functions, 1);
+                }
+                (parts, ADAPTER_BYTES)
+            }
+            _ => (0, FUNCTION_BYTES),
+        };
+        if let Some(requirements) = self.expansion.requirements() {
+            let sum = &mut requirements.instance_bytes;
+            *sum = sum.saturating_add(bytes);
+        }
+        gauge.add(Measure::TypeWork, parts, byte)?;
+        gauge.note(Measure::TypeParts, parts, byte)
+    }
+
+    fn named(&mut self, name: &str, gauge: &mut Gauge<'_>, byte: u64) -> Result<(), Rejection> {
+        gauge.note(Measure::NameBytes, count(name.len()), byte)?;
+        self.add_items(1, gauge, byte)
     }
 
     fn add_items(&mut self, items: u64, gauge: &mut Gauge<'_>, byte: u64) -> Result<(), Rejection> {
@@ -177,24 +253,61 @@ impl Components {
     }
 }
 
-/// Compares what instantiation takes with the limits.
-pub(super) fn check_requirements(
-    requirements: &Requirements,
-    gauge: &mut Gauge<'_>,
-    byte: u64,
-) -> Result<(), Rejection> {
-    for (measure, found) in [
-        (Measure::CoreInstances, requirements.core_instances),
-        (Measure::Memories, requirements.memories),
-        (Measure::MemoryBytes, requirements.memory_bytes),
-        (Measure::Tables, requirements.tables),
-        (Measure::TableElements, requirements.table_elements),
-        (Measure::ExpandedItems, requirements.items),
-        (Measure::AdapterValues, requirements.adapter_values),
-    ] {
-        gauge.note(measure, found, byte)?;
+/// State of a function that a component lifts or that is built in, at most, in bytes.
+const FUNCTION_BYTES: u64 = 128;
+
+/// State of a lowered function, at most, in bytes: with the module that moves the values from
+/// component to component, its imports, and a function for every encoding of strings.
+const ADAPTER_BYTES: u64 = 1_600;
+
+fn payload_has_items(payload: &Payload<'_>) -> bool {
+    payload
+        .as_section()
+        .is_some_and(|(_, range)| !range.is_empty())
+}
+
+/// Counts the core types that a type declares.
+fn core_types(ty: &ComponentType<'_>, gauge: &mut Gauge<'_>, byte: u64) -> Result<(), Rejection> {
+    match ty {
+        ComponentType::Component(inner) => {
+            inner.iter().try_for_each(|declaration| match declaration {
+                ComponentTypeDeclaration::CoreType(ty) => core_type(ty, gauge, byte),
+                ComponentTypeDeclaration::Type(ty) => core_types(ty, gauge, byte),
+                _ => Ok(()),
+            })
+        }
+        ComponentType::Instance(inner) => {
+            inner.iter().try_for_each(|declaration| match declaration {
+                InstanceTypeDeclaration::CoreType(ty) => core_type(ty, gauge, byte),
+                InstanceTypeDeclaration::Type(ty) => core_types(ty, gauge, byte),
+                _ => Ok(()),
+            })
+        }
+        _ => Ok(()),
     }
-    Ok(())
+}
+
+fn core_type(ty: &CoreType<'_>, gauge: &mut Gauge<'_>, byte: u64) -> Result<(), Rejection> {
+    let mut group = |group: &RecGroup| {
+        for ty in group.types() {
+            let (parameters, results) = arity_of(&ty.composite_type.inner);
+            gauge.add(Measure::FileFunctionTypes, 1, byte)?;
+            gauge.note(Measure::Values, parameters + results, byte)?;
+            gauge.add_work(entry_ns(parameters + results), byte)?;
+        }
+        Ok(())
+    };
+    match ty {
+        CoreType::Rec(types) => group(types),
+        CoreType::Module(declarations) => {
+            declarations
+                .iter()
+                .try_for_each(|declaration| match declaration {
+                    ModuleTypeDeclaration::Type(types) => group(types),
+                    _ => Ok(()),
+                })
+        }
+    }
 }
 
 /// Items inside a type.

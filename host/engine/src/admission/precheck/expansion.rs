@@ -15,6 +15,9 @@ use wasmparser::{
     ComponentTypeRef, Instance,
 };
 
+use super::super::rejection::Rejection;
+use super::measure::{Gauge, Measure};
+
 /// What instantiating something once takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Requirements {
@@ -29,6 +32,14 @@ pub(super) struct Requirements {
     pub(super) table_elements: u64,
     /// Values in the types of the functions that are lowered.
     pub(super) adapter_values: u64,
+    /// Functions that are lowered.
+    pub(super) lowered_functions: u64,
+    /// Elements in all element segments.
+    pub(super) elements: u64,
+    /// Bytes in all data segments.
+    pub(super) data_bytes: u64,
+    /// State that the engine keeps for the instances, in bytes.
+    pub(super) instance_bytes: u64,
 }
 
 impl Requirements {
@@ -39,10 +50,67 @@ impl Requirements {
         sum(&mut self.memories, more.memories);
         sum(&mut self.tables, more.tables);
         sum(&mut self.adapter_values, more.adapter_values);
+        sum(&mut self.lowered_functions, more.lowered_functions);
+        sum(&mut self.elements, more.elements);
+        sum(&mut self.data_bytes, more.data_bytes);
+        sum(&mut self.instance_bytes, more.instance_bytes);
         self.memory_bytes = self.memory_bytes.max(more.memory_bytes);
         self.table_elements = self.table_elements.max(more.table_elements);
     }
+
+    /// Compares with the limits what a module takes, whether it is instantiated or not.
+    ///
+    /// # Errors
+    ///
+    /// [`Rejection::OverLimit`].
+    pub(super) fn check_module(&self, gauge: &mut Gauge<'_>, byte: u64) -> Result<(), Rejection> {
+        for (measure, found) in [
+            (Measure::Memories, self.memories),
+            (Measure::MemoryBytes, self.memory_bytes),
+            (Measure::Tables, self.tables),
+            (Measure::TableElements, self.table_elements),
+            (Measure::CoreInstanceBytes, self.instance_bytes),
+        ] {
+            gauge.note(measure, found, byte)?;
+        }
+        Ok(())
+    }
+
+    /// Compares with the limits what a file takes in all.
+    ///
+    /// # Errors
+    ///
+    /// [`Rejection::OverLimit`].
+    pub(super) fn check(&self, gauge: &mut Gauge<'_>, byte: u64) -> Result<(), Rejection> {
+        for (measure, found) in [
+            (Measure::CoreInstances, self.core_instances),
+            (Measure::Memories, self.memories),
+            (Measure::MemoryBytes, self.memory_bytes),
+            (Measure::Tables, self.tables),
+            (Measure::TableElements, self.table_elements),
+            (Measure::ExpandedItems, self.items),
+            (Measure::AdapterValues, self.adapter_values),
+            (Measure::LoweredFunctions, self.lowered_functions),
+            (Measure::Elements, self.elements),
+            (Measure::DataBytes, self.data_bytes),
+            (Measure::ComponentInstanceBytes, self.instance_bytes),
+        ] {
+            gauge.note(measure, found, byte)?;
+        }
+        let adapters = self.lowered_functions.saturating_mul(ADAPTER_NS);
+        let values = self.adapter_values.saturating_mul(ADAPTER_VALUE_NS);
+        gauge.add_work(adapters.saturating_add(values), byte)
+    }
 }
+
+/// Time to compile the function that moves values from component to component.
+const ADAPTER_NS: u64 = 3_000_000;
+
+/// Time for each of the values; strings take the longest.
+const ADAPTER_VALUE_NS: u64 = 1_200_000;
+
+/// State of one instance of a component, without what is in it, in bytes.
+const COMPONENT_BYTES: u64 = 16;
 
 /// Why something cannot be instantiated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +119,19 @@ pub(super) enum Unknown {
     Foreign,
     /// There is no such index; validation says so better.
     Missing,
+}
+
+impl Unknown {
+    /// The rejection of what is instantiated at that byte.
+    pub(super) fn reject(self, byte: u64) -> Rejection {
+        let what = match self {
+            Self::Foreign => "is handed or takes out of an instance",
+            Self::Missing => "does not have",
+        };
+        Rejection::Invalid(format!(
+            "it instantiates a component or module that it {what}, at byte {byte}"
+        ))
+    }
 }
 
 /// The index spaces of one component that is open: `None` for what is foreign.
@@ -132,6 +213,8 @@ impl Expansion {
             } => {
                 let mut requirements = *known(&scope.components, *component_index)?;
                 requirements.items = requirements.items.saturating_add(count(args.len()));
+                let bytes = &mut requirements.instance_bytes;
+                *bytes = bytes.saturating_add(COMPONENT_BYTES);
                 scope.requirements.add(&requirements);
             }
             ComponentInstance::FromExports(exports) => {

@@ -32,8 +32,8 @@ enum Event {
     Jump(u32),
     /// A branch that may be taken.
     Fork(u32),
-    /// The end of a path: a return, a trap, or a `br_table`, whose targets follow
-    /// as forks.
+    /// The end of a path: a return, a trap, or a `br_table`, whose targets come
+    /// before it as forks.
     Leave,
 }
 
@@ -168,7 +168,7 @@ impl Flow {
     }
 
     /// The code after this is reached by branches only. The targets of a `br_table`
-    /// are reported as forks after it.
+    /// are reported as forks before it.
     pub(super) fn leave(&mut self) {
         self.events.push(Event::Leave);
     }

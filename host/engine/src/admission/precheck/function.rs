@@ -1,11 +1,5 @@
 //! One function of a core module: validated, and measured by what Cranelift would
-//! have to do for it.
-//!
-//! The estimate ([`Sizes::work_ns`]) is a sum of terms with coefficients that were
-//! measured with wasmtime 48 on a 2-core machine: generators of bad cases pushed one
-//! term at a time, and every coefficient is at or above what was found. The terms
-//! that are products are the ones that make small files dangerous; each names where
-//! in Cranelift it comes from.
+//! have to do for it ([`Sizes`]).
 
 use wasmparser::{
     BinaryReader, BlockType, BrTable, CompositeInnerType, FrameKind, FuncToValidate, FuncValidator,
@@ -13,28 +7,9 @@ use wasmparser::{
 };
 
 use super::super::rejection::Rejection;
-use super::flow::{Construct, Flow, Joins};
+use super::cost::Sizes;
+use super::flow::{Construct, Flow};
 use super::measure::{Gauge, Measure};
-
-const NS_IN_MS: u64 = 1_000_000;
-
-/// What one function costs.
-#[derive(Clone, Copy, Debug, Default)]
-struct Sizes {
-    bytes: u64,
-    locals: u64,
-    operands: u64,
-    blocks: u64,
-    /// Values that blocks and branches are typed with: each becomes a variable.
-    typed: u64,
-    /// SIMD operators, some of which become dozens of machine instructions.
-    simd: u64,
-    /// Loads and stores, each with its check of bounds.
-    accesses: u64,
-    /// Other operators that become many machine instructions.
-    heavy: u64,
-    joins: Joins,
-}
 
 /// What an operator becomes, by its first byte.
 enum Weight {
@@ -57,53 +32,50 @@ impl Weight {
     }
 }
 
-impl Sizes {
-    /// Cells of Cranelift's table of the value of each variable in each block
-    /// (`cranelift_frontend::ssa`): 4 to 8 bytes each, allocated up to the last block
-    /// in which the variable is written.
-    const fn cells(&self) -> u64 {
-        (self.locals + self.typed).saturating_mul(self.blocks)
+/// Validating a branch takes time for each value that it carries, and so does each target of a
+/// `br_table`, equal or not. Far above that time, because it passes before anything is compiled.
+const BRANCH_VALUE_NS: u64 = 200;
+
+/// Parameters and results of a call that its own weight includes.
+const PASSED_FREE: u64 = 2;
+
+/// Parameters and results of a call that are in registers, about.
+const PASSED_IN_REGISTERS: u64 = 16;
+
+/// The globals that one function accesses.
+#[derive(Debug, Default)]
+struct Regions {
+    /// For each global the last function that accesses it.
+    last: Vec<u32>,
+    function: u32,
+}
+
+impl Regions {
+    /// Begins a function.
+    const fn begin(&mut self) {
+        self.function += 1;
     }
 
-    /// The estimated time to compile the function, in ns.
-    const fn work_ns(&self) -> u64 {
-        let live = self.locals + self.operands;
-        let spilled = if live < 400 { live } else { 400 };
-        let joins = self.joins;
-        let linear = 180_000
-            + self.bytes * 500
-            + self.simd * 40_000
-            + self.accesses * 6_000
-            + self.heavy * 15_000
-            + self.blocks * 10_000
-            + joins.joined * 4_000
-            + joins.carried * 500;
-        linear
-            .saturating_add(self.cells().saturating_mul(6))
-            // Walks up the dominator tree, for every instruction of a deep one
-            // (`regalloc2::domtree::dominates`, `EgraphPass::depth_of_block_in_gvn_map`).
-            .saturating_add(self.blocks.saturating_mul(self.blocks) * 9)
-            .saturating_add(self.blocks.saturating_mul(self.bytes) / 10)
-            // Live ranges that overlap (`regalloc2::ion`), and those of them that are
-            // spilled.
-            .saturating_add(self.bytes.saturating_mul(live) * 4)
-            .saturating_add(self.bytes.saturating_mul(self.bytes) / 10_000 * spilled)
-            // `blockparam_ins` is scanned from its beginning for every live range
-            // (`regalloc2::ion::moves`).
-            .saturating_add(joins.carried.saturating_mul(joins.carried) * 2)
-    }
-
-    /// The estimated memory to compile the function, in bytes.
-    const fn memory_bytes(&self) -> u64 {
-        let linear = self.bytes * 200
-            + self.simd * 8_000
-            + self.heavy * 3_000
-            + self.blocks * 10_000
-            + self.joins.joined * 1_000
-            + self.joins.carried * 500;
-        linear.saturating_add(self.cells().saturating_mul(4))
+    /// Returns 1 if the function has not accessed the global before, else 0.
+    fn access(&mut self, global: u32) -> u64 {
+        let Ok(global) = usize::try_from(global) else {
+            return 0;
+        };
+        // What is out of range is rejected by validation, not here.
+        if global > GLOBALS_MAX {
+            return 0;
+        }
+        if global >= self.last.len() {
+            self.last.resize(global + 1, 0);
+        }
+        let is_new = self.last[global] != self.function;
+        self.last[global] = self.function;
+        u64::from(is_new)
     }
 }
+
+/// More globals than validation admits.
+const GLOBALS_MAX: usize = 1_000_000;
 
 /// What is kept from function to function.
 #[derive(Default)]
@@ -111,8 +83,7 @@ pub(super) struct Functions {
     allocations: FuncValidatorAllocations,
     flow: Flow,
     targets: Vec<u32>,
-    /// The estimate for all functions so far.
-    work_ns: u64,
+    regions: Regions,
 }
 
 impl Functions {
@@ -143,10 +114,12 @@ impl Functions {
         let locals = validator.len_locals();
         gauge.note(Measure::Locals, locals.into(), range.start)?;
         self.flow.begin(locals, results);
+        self.regions.begin();
         let mut function = Function {
             validator,
             flow: &mut self.flow,
             targets: &mut self.targets,
+            regions: &mut self.regions,
             gauge,
             sizes: Sizes {
                 bytes,
@@ -155,10 +128,9 @@ impl Functions {
             },
         };
         function.operators(&mut reader)?;
-        let work_ns = function.finish(range.start)?;
+        function.finish(range.start)?;
         self.allocations = function.validator.into_allocations();
-        self.work_ns = self.work_ns.saturating_add(work_ns);
-        gauge.note(Measure::Work, self.work_ns / NS_IN_MS, range.start)
+        Ok(())
     }
 }
 
@@ -167,6 +139,7 @@ struct Function<'a, 'l> {
     validator: FuncValidator<ValidatorResources>,
     flow: &'a mut Flow,
     targets: &'a mut Vec<u32>,
+    regions: &'a mut Regions,
     gauge: &'a mut Gauge<'l>,
     sizes: Sizes,
 }
@@ -205,25 +178,34 @@ impl Function<'_, '_> {
             Operator::Else => self.flow.otherwise(),
             Operator::End => self.flow.close(),
             Operator::Br { relative_depth } => {
-                self.branch(*relative_depth);
+                self.branch(*relative_depth, byte)?;
                 self.flow.jump(*relative_depth);
             }
             Operator::BrIf { relative_depth } => {
-                self.branch(*relative_depth);
+                self.branch(*relative_depth, byte)?;
                 self.flow.fork(*relative_depth);
             }
             Operator::BrTable { targets } => self.table(targets, byte)?,
-            Operator::Return | Operator::Unreachable | Operator::ReturnCall { .. } => {
+            Operator::Return | Operator::Unreachable => self.flow.leave(),
+            Operator::Call { function_index } => self.call(*function_index),
+            Operator::ReturnCall { function_index } => {
+                self.call(*function_index);
                 self.flow.leave();
             }
-            Operator::ReturnCallIndirect { .. } => {
+            Operator::ReturnCallIndirect { type_index, .. } => {
                 self.sizes.blocks += 2;
+                self.pass(BlockType::FuncType(*type_index));
                 self.flow.leave();
             }
             // A table is filled lazily: the entry may have to be made first.
-            Operator::CallIndirect { .. }
-            | Operator::TableGet { .. }
-            | Operator::TableSet { .. } => self.sizes.blocks += 2,
+            Operator::CallIndirect { type_index, .. } => {
+                self.sizes.blocks += 2;
+                self.pass(BlockType::FuncType(*type_index));
+            }
+            Operator::TableGet { .. } | Operator::TableSet { .. } => self.sizes.blocks += 2,
+            Operator::GlobalGet { global_index } | Operator::GlobalSet { global_index } => {
+                self.sizes.regions += self.regions.access(*global_index);
+            }
             Operator::LocalGet { local_index } => self.flow.read(*local_index),
             Operator::LocalSet { local_index } | Operator::LocalTee { local_index } => {
                 self.flow.write(*local_index);
@@ -257,14 +239,36 @@ impl Function<'_, '_> {
     }
 
     /// A branch to a label: the block after it, and one on the edge.
-    fn branch(&mut self, label: u32) {
+    fn branch(&mut self, label: u32, byte: u64) -> Result<(), Rejection> {
+        let values = self.label_values(label);
         self.sizes.blocks += 2;
-        self.sizes.typed += self.label_values(label);
+        self.sizes.typed += values;
+        self.gauge.add_work(values * BRANCH_VALUE_NS, byte)
+    }
+
+    /// A direct call.
+    fn call(&mut self, function: u32) {
+        let resources = self.validator.resources();
+        if let Some(ty) = resources.type_index_of_function(function) {
+            self.pass(BlockType::FuncType(ty));
+        }
+    }
+
+    /// A call of that type.
+    fn pass(&mut self, ty: BlockType) {
+        let (parameters, results) = self.arity(ty);
+        let values = parameters + results;
+        // Those that are not in registers take longer.
+        let on_stack = values.saturating_sub(PASSED_IN_REGISTERS);
+        self.sizes.passed += values.saturating_sub(PASSED_FREE) + 2 * on_stack;
     }
 
     fn table(&mut self, table: &BrTable<'_>, byte: u64) -> Result<(), Rejection> {
         self.gauge
             .note(Measure::BranchTargets, table.len().into(), byte)?;
+        let values = self.label_values(table.default());
+        let checked = u64::from(table.len() + 1) * values;
+        self.gauge.add_work(checked * BRANCH_VALUE_NS, byte)?;
         self.targets.clear();
         self.targets.push(table.default());
         for target in table.targets() {
@@ -273,13 +277,12 @@ impl Function<'_, '_> {
         // Equal targets share an edge.
         self.targets.sort_unstable();
         self.targets.dedup();
-        self.flow.leave();
-        let values = self.label_values(table.default());
         for &target in &*self.targets {
             self.sizes.blocks += 1;
             self.sizes.typed += values;
             self.flow.fork(target);
         }
+        self.flow.leave();
         Ok(())
     }
 
@@ -310,17 +313,12 @@ impl Function<'_, '_> {
         })
     }
 
-    /// The estimated time to compile the function, in ns.
-    fn finish(&mut self, byte: u64) -> Result<u64, Rejection> {
+    /// Estimates what compiling the function takes.
+    fn finish(&mut self, byte: u64) -> Result<(), Rejection> {
         self.sizes.joins = self.flow.count();
         let carried = self.sizes.joins.carried;
         self.gauge.note(Measure::Carried, carried, byte)?;
-        let memory_mib = self.sizes.memory_bytes() >> 20;
-        self.gauge.note(Measure::FunctionMemory, memory_mib, byte)?;
-        let work_ns = self.sizes.work_ns();
-        self.gauge
-            .note(Measure::FunctionWork, work_ns / NS_IN_MS, byte)?;
-        Ok(work_ns)
+        self.sizes.note(self.gauge, byte)
     }
 }
 

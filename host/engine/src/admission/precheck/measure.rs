@@ -7,6 +7,9 @@ use super::super::place::Place;
 use super::super::rejection::Rejection;
 use crate::limits::Limits;
 
+/// Nanoseconds in a millisecond, the unit of estimates.
+pub(super) const NS_IN_MS: u64 = 1_000_000;
+
 /// Something that a file may have too much of. Each has its limit in
 /// [`Limits`], which says what attack it stops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +46,26 @@ pub enum Measure {
     FunctionTypes,
     /// Functions in the whole file.
     Functions,
+    /// Core modules in the whole file.
+    Modules,
+    /// State that the engine keeps for an instance of one core module, in bytes.
+    CoreInstanceBytes,
+    /// State that the engine keeps for all instances together, in bytes; at most that.
+    ComponentInstanceBytes,
+    /// Lowered functions, with all components instantiated.
+    LoweredFunctions,
+    /// Items of all core modules: imports, exports, globals, tables, memories, segments.
+    FileItems,
+    /// Function types of all core modules and core module types.
+    FileFunctionTypes,
+    /// Elements in element segments: in the file, or with all modules instantiated.
+    Elements,
+    /// Bytes in data segments, with all modules instantiated.
+    DataBytes,
+    /// Bytes of the images of memories and tables that become a part of the compiled code.
+    ImageBytes,
+    /// Parts of component types that are gone through, again for each item that has them.
+    TypeWork,
     /// Parameters and results of one function or block.
     Values,
     /// The longest constant expression, in bytes.
@@ -173,6 +196,60 @@ const ROWS: [Row; Measure::COUNT] = {
         row(M::Functions, "functions", "functions", |l| {
             l.admission.functions_max.into()
         }),
+        row(M::Modules, "modules", "core modules", |l| {
+            l.admission.modules_max.into()
+        }),
+        row(
+            M::CoreInstanceBytes,
+            "core_instance_bytes",
+            "bytes of state of one core instance",
+            |l| l.admission.core_instance_bytes_max.into(),
+        ),
+        row(
+            M::ComponentInstanceBytes,
+            "component_instance_bytes",
+            "bytes of state of all instances",
+            |l| l.admission.component_instance_bytes_max.into(),
+        ),
+        row(
+            M::LoweredFunctions,
+            "lowered_functions",
+            "lowered functions after instantiation",
+            |l| l.admission.lowered_functions_max.into(),
+        ),
+        row(M::FileItems, "file_items", "items of core modules", |l| {
+            l.admission.file_items_max.into()
+        }),
+        row(
+            M::FileFunctionTypes,
+            "file_function_types",
+            "core function types",
+            |l| l.admission.file_function_types_max.into(),
+        ),
+        row(
+            M::Elements,
+            "elements",
+            "elements in element segments",
+            |l| l.admission.elements_max.into(),
+        ),
+        row(
+            M::DataBytes,
+            "data_bytes",
+            "bytes of data segments after instantiation",
+            |l| l.admission.data_bytes_max.into(),
+        ),
+        row(
+            M::ImageBytes,
+            "image_bytes",
+            "bytes of images of memories and tables",
+            |l| l.admission.image_bytes_max.into(),
+        ),
+        row(
+            M::TypeWork,
+            "type_work",
+            "parts of component types to compare",
+            |l| l.admission.type_work_max.into(),
+        ),
         row(
             M::Values,
             "values",
@@ -281,12 +358,32 @@ impl Measure {
 
 /// The greatest value found of each measure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Measures([u64; Measure::COUNT]);
+pub struct Measures {
+    // Two arrays, because serde knows none longer than 32.
+    first: [u64; FIRST],
+    rest: [u64; Measure::COUNT - FIRST],
+}
+
+const FIRST: usize = 32;
 
 impl Measures {
     /// The greatest value found.
     pub const fn get(&self, measure: Measure) -> u64 {
-        self.0[measure as usize]
+        let position = measure as usize;
+        if position < FIRST {
+            self.first[position]
+        } else {
+            self.rest[position - FIRST]
+        }
+    }
+
+    const fn get_mut(&mut self, measure: Measure) -> &mut u64 {
+        let position = measure as usize;
+        if position < FIRST {
+            &mut self.first[position]
+        } else {
+            &mut self.rest[position - FIRST]
+        }
     }
 }
 
@@ -294,6 +391,8 @@ impl Measures {
 pub(super) struct Gauge<'a> {
     limits: &'a Limits,
     found: Measures,
+    /// The estimated time for the whole file so far, in ns.
+    work_ns: u64,
 }
 
 impl<'a> Gauge<'a> {
@@ -301,6 +400,7 @@ impl<'a> Gauge<'a> {
         Self {
             limits,
             found: Measures::default(),
+            work_ns: 0,
         }
     }
 
@@ -319,7 +419,7 @@ impl<'a> Gauge<'a> {
         found: u64,
         byte: u64,
     ) -> Result<(), Rejection> {
-        let greatest = &mut self.found.0[measure as usize];
+        let greatest = self.found.get_mut(measure);
         *greatest = found.max(*greatest);
         let max = measure.max(self.limits);
         if found <= max {
@@ -341,6 +441,16 @@ impl<'a> Gauge<'a> {
     pub(super) fn add(&mut self, measure: Measure, more: u64, byte: u64) -> Result<(), Rejection> {
         let sum = self.found.get(measure).saturating_add(more);
         self.note(measure, sum, byte)
+    }
+
+    /// Adds to the estimated time for the file.
+    ///
+    /// # Errors
+    ///
+    /// [`Rejection::OverLimit`] when the sum is above the limit.
+    pub(super) fn add_work(&mut self, work_ns: u64, byte: u64) -> Result<(), Rejection> {
+        self.work_ns = self.work_ns.saturating_add(work_ns);
+        self.note(Measure::Work, self.work_ns / NS_IN_MS, byte)
     }
 }
 

@@ -1,10 +1,14 @@
-//! The sections of one core module, except its code: counts, names, sizes.
+//! The sections of one core module, except its code: counts, names, sizes, and what instances
+//! of it take.
 
-use wasmparser::{ConstExpr, DataKind, ElementItems, ElementKind, Payload, TableInit};
+use wasmparser::{ConstExpr, DataKind, ElementItems, ElementKind, Payload, TableInit, TypeRef};
 
 use super::super::rejection::Rejection;
+use super::constant::Constant;
+use super::context::Context;
 use super::expansion::Requirements;
 use super::measure::{Gauge, Measure};
+use super::startup::Startup;
 
 /// A page of linear memory, in bytes.
 const PAGE_BYTES: u64 = 64 << 10;
@@ -13,8 +17,13 @@ const PAGE_BYTES: u64 = 64 << 10;
 #[derive(Debug, Default)]
 pub(super) struct Module {
     /// What instantiating it takes.
-    pub(super) requirements: Requirements,
-    elements: u64,
+    requirements: Requirements,
+    context: Context,
+    startup: Startup,
+    /// Parameters and results of each type.
+    values: Vec<u64>,
+    /// The same of each function that the module defines.
+    signatures: Vec<u64>,
 }
 
 impl Module {
@@ -29,72 +38,97 @@ impl Module {
         gauge: &mut Gauge<'_>,
     ) -> Result<(), Rejection> {
         let start = payload.as_section().map_or(0, |(_, range)| range.start);
-        let mut items = |count: u32| gauge.note(Measure::ModuleItems, count.into(), start);
         match payload {
             Payload::TypeSection(section) => {
                 gauge.note(Measure::FunctionTypes, section.count().into(), start)?;
+                gauge.add(Measure::FileFunctionTypes, section.count().into(), start)?;
                 for ty in section.clone().into_iter_err_on_gc_types() {
                     let ty = ty?;
-                    let values = ty.params().len() + ty.results().len();
-                    gauge.note(Measure::Values, count(values), start)?;
+                    let values = count(ty.params().len() + ty.results().len());
+                    gauge.note(Measure::Values, values, start)?;
+                    gauge.add_work(entry_ns(values), start)?;
+                    self.values.push(values);
                 }
             }
             Payload::ImportSection(section) => {
-                items(section.count())?;
+                items(section.count(), gauge, start)?;
                 for import in section.clone().into_imports() {
                     let import = import?;
                     let longest = import.module.len().max(import.name.len());
                     gauge.note(Measure::NameBytes, count(longest), start)?;
+                    self.context.import(&import.ty);
+                    match import.ty {
+                        TypeRef::Table(_) => self.startup.import_table(),
+                        TypeRef::Memory(_) => self.startup.import_memory(),
+                        _ => {}
+                    }
                 }
             }
             Payload::ExportSection(section) => {
-                items(section.count())?;
+                items(section.count(), gauge, start)?;
                 for export in section.clone() {
-                    gauge.note(Measure::NameBytes, count(export?.name.len()), start)?;
+                    let export = export?;
+                    gauge.note(Measure::NameBytes, count(export.name.len()), start)?;
+                    if export.kind == wasmparser::ExternalKind::Func {
+                        self.context.escape(export.index);
+                    }
                 }
             }
             Payload::FunctionSection(section) => {
                 gauge.add(Measure::Functions, section.count().into(), start)?;
+                self.context.functions = section.count().into();
+                for ty in section.clone() {
+                    let ty = usize::try_from(ty?).ok();
+                    let values = ty.and_then(|ty| self.values.get(ty));
+                    let values = values.copied().unwrap_or_default();
+                    self.signatures.push(values);
+                    gauge.add_work(values.saturating_mul(PARAMETER_NS), start)?;
+                }
             }
             Payload::TableSection(section) => {
-                items(section.count())?;
+                items(section.count(), gauge, start)?;
                 for table in section.clone() {
                     let table = table?;
                     self.requirements.tables += 1;
                     let elements = &mut self.requirements.table_elements;
                     *elements = table.ty.initial.max(*elements);
-                    if let TableInit::Expr(expression) = &table.init {
-                        check_const(expression, gauge)?;
-                    }
+                    self.context.tables += 1;
+                    let initial = match &table.init {
+                        TableInit::Expr(expression) => Some(self.constant(expression, gauge)?),
+                        TableInit::RefNull => None,
+                    };
+                    self.startup.table(table.ty.initial, initial.as_ref());
                 }
             }
             Payload::MemorySection(section) => {
-                items(section.count())?;
+                items(section.count(), gauge, start)?;
                 for memory in section.clone() {
                     let bytes = memory?.initial.saturating_mul(PAGE_BYTES);
                     self.requirements.memories += 1;
                     self.requirements.memory_bytes = bytes.max(self.requirements.memory_bytes);
+                    self.context.memories += 1;
+                    self.startup.memory(bytes);
                 }
             }
             Payload::GlobalSection(section) => {
-                items(section.count())?;
+                items(section.count(), gauge, start)?;
                 for global in section.clone() {
-                    check_const(&global?.init_expr, gauge)?;
+                    let value = self.constant(&global?.init_expr, gauge)?;
+                    self.context.globals += 1;
+                    self.startup.global(&value);
                 }
             }
-            Payload::TagSection(section) => items(section.count())?,
+            Payload::TagSection(section) => items(section.count(), gauge, start)?,
             Payload::ElementSection(section) => {
-                items(section.count())?;
+                items(section.count(), gauge, start)?;
                 for element in section.clone() {
                     self.element(&element?, gauge)?;
                 }
             }
             Payload::DataSection(section) => {
-                items(section.count())?;
+                items(section.count(), gauge, start)?;
                 for data in section.clone() {
-                    if let DataKind::Active { offset_expr, .. } = data?.kind {
-                        check_const(&offset_expr, gauge)?;
-                    }
+                    self.data(&data?, gauge)?;
                 }
             }
             _ => {}
@@ -102,33 +136,143 @@ impl Module {
         Ok(())
     }
 
+    /// The module ends. Checks what the engine would refuse to load even when nothing
+    /// instantiates it, and what the compiler makes of it besides its functions. Returns what
+    /// instantiating it takes.
+    ///
+    /// # Errors
+    ///
+    /// [`Rejection::OverLimit`].
+    pub(super) fn end(
+        &mut self,
+        gauge: &mut Gauge<'_>,
+        byte: u64,
+    ) -> Result<Requirements, Rejection> {
+        let initialisation = self.startup.finish();
+        self.context.data += initialisation.data;
+        let mut requirements = self.requirements;
+        requirements.instance_bytes = self.context.bytes();
+        requirements.check_module(gauge, byte)?;
+        let image_bytes = initialisation.image_bytes;
+        gauge.add(Measure::ImageBytes, image_bytes, byte)?;
+        gauge.add_work(image_bytes.saturating_mul(IMAGE_BYTE_NS), byte)?;
+        initialisation.code.note(gauge, byte)?;
+        for function in self.context.escaped() {
+            let values = self.signatures.get(function).copied().unwrap_or_default();
+            gauge.add_work(entry_ns(values), byte)?;
+        }
+        Ok(requirements)
+    }
+
     fn element(
         &mut self,
         element: &wasmparser::Element<'_>,
         gauge: &mut Gauge<'_>,
     ) -> Result<(), Rejection> {
-        if let ElementKind::Active { offset_expr, .. } = &element.kind {
-            check_const(offset_expr, gauge)?;
-        }
-        let items = match &element.items {
+        let start = element.range.start;
+        let offset = match &element.kind {
+            ElementKind::Active { offset_expr, .. } => Some(self.constant(offset_expr, gauge)?),
+            ElementKind::Passive | ElementKind::Declared => None,
+        };
+        let elements = u64::from(match &element.items {
             ElementItems::Functions(items) => items.count(),
-            ElementItems::Expressions(_, items) => {
-                for item in items.clone() {
-                    check_const(&item?, gauge)?;
+            ElementItems::Expressions(_, items) => items.count(),
+        });
+        add(&mut self.requirements.elements, elements);
+        gauge.note(Measure::ModuleItems, self.requirements.elements, start)?;
+        gauge.add(Measure::Elements, elements, start)?;
+        let operators = match &element.items {
+            ElementItems::Functions(items) => {
+                for function in items.clone() {
+                    self.context.escape(function?);
                 }
-                items.count()
+                None
+            }
+            ElementItems::Expressions(_, items) => {
+                let mut operators = 0;
+                for item in items.clone() {
+                    operators += self.constant(&item?, gauge)?.operators;
+                }
+                Some(operators)
             }
         };
-        add(&mut self.elements, items.into());
-        gauge.note(Measure::ModuleItems, self.elements, element.range.start)
+        match (&element.kind, offset) {
+            (ElementKind::Active { table_index, .. }, Some(offset)) => {
+                let table = table_index.unwrap_or(0);
+                self.startup.elements(table, &offset, elements, operators);
+            }
+            (ElementKind::Passive, _) => {
+                self.startup
+                    .passive_elements(elements, operators.unwrap_or(elements));
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn data(
+        &mut self,
+        data: &wasmparser::Data<'_>,
+        gauge: &mut Gauge<'_>,
+    ) -> Result<(), Rejection> {
+        let bytes = count(data.data.len());
+        add(&mut self.requirements.data_bytes, bytes);
+        match &data.kind {
+            DataKind::Active {
+                memory_index,
+                offset_expr,
+            } => {
+                let offset = self.constant(offset_expr, gauge)?;
+                self.startup.data(*memory_index, &offset, bytes);
+            }
+            DataKind::Passive => self.context.data += 1,
+        }
+        Ok(())
+    }
+
+    /// Reads a constant expression, once its length is known to be small.
+    fn constant(
+        &mut self,
+        expression: &ConstExpr<'_>,
+        gauge: &mut Gauge<'_>,
+    ) -> Result<Constant, Rejection> {
+        let reader = expression.get_binary_reader();
+        let start = reader.original_position();
+        let bytes = count(reader.bytes_remaining());
+        gauge.note(Measure::ConstBytes, bytes, start)?;
+        let constant = Constant::read(expression)?;
+        for &function in &constant.functions {
+            self.context.escape(function);
+        }
+        Ok(constant)
     }
 }
 
-fn check_const(expression: &ConstExpr<'_>, gauge: &mut Gauge<'_>) -> Result<(), Rejection> {
-    let reader = expression.get_binary_reader();
-    let start = reader.original_position();
-    let bytes = count(reader.bytes_remaining());
-    gauge.note(Measure::ConstBytes, bytes, start)
+/// Time to read and write an item of a module.
+const ITEM_NS: u64 = 2_000;
+
+/// Time to make and write a byte of an image.
+const IMAGE_BYTE_NS: u64 = 4;
+
+/// Time to compile an entry: the function by which the host calls one that escapes, and the one
+/// by which functions of a type call the host.
+const ENTRY_NS: u64 = 150_000;
+
+/// The same for each parameter and result.
+const VALUE_NS: u64 = 12_000;
+
+/// Time for each parameter and result of a function itself.
+const PARAMETER_NS: u64 = 2_000;
+
+/// Time to compile an entry of a type with that many parameters and results.
+pub(super) const fn entry_ns(values: u64) -> u64 {
+    ENTRY_NS + values * VALUE_NS
+}
+
+fn items(count: u32, gauge: &mut Gauge<'_>, byte: u64) -> Result<(), Rejection> {
+    gauge.note(Measure::ModuleItems, count.into(), byte)?;
+    gauge.add_work(u64::from(count) * ITEM_NS, byte)?;
+    gauge.add(Measure::FileItems, count.into(), byte)
 }
 
 const fn add(sum: &mut u64, more: u64) {

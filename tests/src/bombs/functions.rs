@@ -1,8 +1,4 @@
-//! Small files that take a compiler much time or memory: one function for each kind.
-//!
-//! Core modules without the exports of a robot, and components without a controller: they must be
-//! rejected for their size, before their names are checked. Sizes and measured times are in the
-//! documentation of each.
+//! Bombs of one function or of one list in a module, and of instances.
 
 use wasm_encoder::{
     BlockType, CodeSection, ConstExpr, ExportKind, ExportSection, Function, FunctionSection,
