@@ -6,6 +6,8 @@
 /// The `wasmouse` binary.
 use wasmouse_tests::binary;
 
+/// What admission admits, compiled and loaded by the engine.
+mod admitted;
 /// The cache of compiled robots: damaged, unusable, writable by others.
 mod cache;
 /// The champion: it finishes, its proofs hold, it was not trained on test mazes.
