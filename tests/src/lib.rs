@@ -6,6 +6,7 @@ pub mod bindings;
 pub mod bombs;
 pub mod composite;
 pub mod corpus;
+pub mod fuzz;
 pub mod module;
 pub mod program;
 pub mod wasm_target;

@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use crate::step::{Step, target_folder};
 
 /// The crates with fuzz targets, and their targets.
-const TARGETS: [(&str, &[&str]); 2] = [
+const TARGETS: [(&str, &[&str]); 3] = [
     (
         "wasmouse-core",
         &["maze", "specification", "transcript", "record"],
@@ -23,7 +23,11 @@ const TARGETS: [(&str, &[&str]); 2] = [
             "differential",
         ],
     ),
+    (SEARCHES, &["compile_cost"]),
 ];
+
+/// The package whose targets search for themselves: libFuzzer has nothing to guide there.
+const SEARCHES: &str = "wasmouse-tests";
 
 /// Runs a target for that many minutes, or lists all targets.
 ///
@@ -48,6 +52,11 @@ pub fn run(root: &Path, target: Option<&str>, minutes: u64) -> Result<(), String
             .args([&filter, "--nocapture"])
     };
     let seconds = (minutes * 60).to_string();
+    if package == SEARCHES {
+        return as_test("search")
+            .env("WASMOUSE_FUZZ_SECONDS", seconds)
+            .run();
+    }
     if !has_cargo_fuzz() {
         eprintln!(
             "cargo-fuzz is not installed, so inputs are random; with `cargo install cargo-fuzz` \
