@@ -238,6 +238,7 @@ fn set(limits: &mut Limits, measure: Measure, max: u64) {
         Measure::Carried => admission.carried_max = small,
         Measure::FunctionMemory => admission.function_memory_mib_max = small,
         Measure::FunctionWork => admission.function_work_ms_max = small,
+        Measure::Memory => admission.memory_mib_max = small,
         Measure::Work => admission.work_ms_max = small,
     }
 }

@@ -158,6 +158,9 @@ pub struct AdmissionLimits {
     pub function_memory_mib_max: u32,
     /// Estimated time to compile one function, in ms. Default 20,000.
     pub function_work_ms_max: u32,
+    /// Estimated memory to compile the file, in MiB. Stops files with a lot of everything
+    /// that is each just under a limit. Default 1,000.
+    pub memory_mib_max: u32,
     /// Estimated time to compile the file, in ms: the sum over its functions. Stops
     /// files with many functions that are each just under a limit. The estimate is
     /// an upper bound and about twice the truth for real robots. Default 65,000.
@@ -204,6 +207,7 @@ impl AdmissionLimits {
         carried_max: 80_000,
         function_memory_mib_max: 600,
         function_work_ms_max: 20_000,
+        memory_mib_max: 1000,
         work_ms_max: 65_000,
     };
 
@@ -256,6 +260,7 @@ impl AdmissionLimits {
             carried_max,
             function_memory_mib_max,
             function_work_ms_max,
+            memory_mib_max,
             work_ms_max,
         } = *self;
         DigestBuilder::new("wasmouse.admission.2")
@@ -297,6 +302,7 @@ impl AdmissionLimits {
                 carried_max.into(),
                 function_memory_mib_max.into(),
                 function_work_ms_max.into(),
+                memory_mib_max.into(),
                 work_ms_max.into(),
             ])
             .finish()

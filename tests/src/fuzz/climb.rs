@@ -17,10 +17,10 @@ const SHORT_ESTIMATE_MAX: f64 = 0.5;
 
 /// What a file that is changed again and again may be estimated to take in a long run, in
 /// seconds.
-const LONG_ESTIMATE_MAX: f64 = 4.0;
+const LONG_ESTIMATE_MAX: f64 = 2.0;
 
 /// Changes of each generator before the worst is copied.
-const CHANGES: u32 = 12;
+const CHANGES: u32 = 6;
 
 /// A search for files that take long to compile.
 #[derive(Debug)]

@@ -86,6 +86,11 @@ impl Sizes {
             .saturating_add(self.regions.saturating_mul(self.blocks) * 16)
     }
 
+    /// The estimated memory for the compiled function until the file is compiled, in bytes.
+    const fn kept_bytes(&self) -> u64 {
+        5_500 + self.bytes * 20 + self.heavy * 100 + self.simd * 200 + self.passed * 40
+    }
+
     /// Compares the estimates with the limits, and adds them to those of the file.
     ///
     /// # Errors
@@ -94,6 +99,7 @@ impl Sizes {
     pub(super) fn note(&self, gauge: &mut Gauge<'_>, byte: u64) -> Result<(), Rejection> {
         let memory_bytes = self.memory_bytes();
         gauge.note(Measure::FunctionMemory, memory_bytes >> 20, byte)?;
+        gauge.add_memory(self.kept_bytes(), memory_bytes, byte)?;
         let work_ns = self.work_ns();
         gauge.note(Measure::FunctionWork, work_ns / NS_IN_MS, byte)?;
         gauge.add_work(work_ns, byte)

@@ -92,6 +92,8 @@ pub enum Measure {
     FunctionMemory,
     /// Estimated time to compile one function, in milliseconds.
     FunctionWork,
+    /// Estimated memory to compile the file, in MiB.
+    Memory,
     /// Estimated time to compile the file, in milliseconds.
     Work,
 }
@@ -236,13 +238,13 @@ const ROWS: [Row; Measure::COUNT] = {
             M::DataBytes,
             "data_bytes",
             "bytes of data segments after instantiation",
-            |l| l.admission.data_bytes_max.into(),
+            |l| l.admission.data_bytes_max,
         ),
         row(
             M::ImageBytes,
             "image_bytes",
             "bytes of images of memories and tables",
-            |l| l.admission.image_bytes_max.into(),
+            |l| l.admission.image_bytes_max,
         ),
         row(
             M::TypeWork,
@@ -320,6 +322,12 @@ const ROWS: [Row; Measure::COUNT] = {
             |l| l.admission.function_work_ms_max.into(),
         ),
         row(
+            M::Memory,
+            "memory_mib",
+            "MiB of estimated memory to compile the file",
+            |l| l.admission.memory_mib_max.into(),
+        ),
+        row(
             M::Work,
             "work_ms",
             "ms of estimated time to compile the file",
@@ -393,6 +401,10 @@ pub(super) struct Gauge<'a> {
     found: Measures,
     /// The estimated time for the whole file so far, in ns.
     work_ns: u64,
+    /// The estimated memory for what is kept until all is compiled, in bytes.
+    kept_bytes: u64,
+    /// The estimated memory for the largest function while it is compiled, in bytes.
+    largest_bytes: u64,
 }
 
 impl<'a> Gauge<'a> {
@@ -401,6 +413,8 @@ impl<'a> Gauge<'a> {
             limits,
             found: Measures::default(),
             work_ns: 0,
+            kept_bytes: 0,
+            largest_bytes: 0,
         }
     }
 
@@ -441,6 +455,24 @@ impl<'a> Gauge<'a> {
     pub(super) fn add(&mut self, measure: Measure, more: u64, byte: u64) -> Result<(), Rejection> {
         let sum = self.found.get(measure).saturating_add(more);
         self.note(measure, sum, byte)
+    }
+
+    /// Adds to the estimated memory for the file: what is kept until its end, and what is taken
+    /// for a while.
+    ///
+    /// # Errors
+    ///
+    /// [`Rejection::OverLimit`] when the sum is above the limit.
+    pub(super) fn add_memory(
+        &mut self,
+        kept_bytes: u64,
+        passing_bytes: u64,
+        byte: u64,
+    ) -> Result<(), Rejection> {
+        self.kept_bytes = self.kept_bytes.saturating_add(kept_bytes);
+        self.largest_bytes = self.largest_bytes.max(passing_bytes);
+        let bytes = self.kept_bytes.saturating_add(self.largest_bytes);
+        self.note(Measure::Memory, bytes >> 20, byte)
     }
 
     /// Adds to the estimated time for the file.

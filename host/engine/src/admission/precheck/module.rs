@@ -47,6 +47,7 @@ impl Module {
                     let values = count(ty.params().len() + ty.results().len());
                     gauge.note(Measure::Values, values, start)?;
                     gauge.add_work(entry_ns(values), start)?;
+                    gauge.add_memory(entry_bytes(values), 0, start)?;
                     self.values.push(values);
                 }
             }
@@ -156,10 +157,12 @@ impl Module {
         let image_bytes = initialisation.image_bytes;
         gauge.add(Measure::ImageBytes, image_bytes, byte)?;
         gauge.add_work(image_bytes.saturating_mul(IMAGE_BYTE_NS), byte)?;
+        gauge.add_memory(image_bytes.saturating_mul(IMAGE_COPIES), 0, byte)?;
         initialisation.code.note(gauge, byte)?;
         for function in self.context.escaped() {
             let values = self.signatures.get(function).copied().unwrap_or_default();
             gauge.add_work(entry_ns(values), byte)?;
+            gauge.add_memory(entry_bytes(values), 0, byte)?;
         }
         Ok(requirements)
     }
@@ -251,6 +254,12 @@ impl Module {
 /// Time to read and write an item of a module.
 const ITEM_NS: u64 = 2_000;
 
+/// Memory for an item of a module until the file is compiled.
+const ITEM_BYTES: u64 = 1_000;
+
+/// How often an image is in memory at the same time, about.
+const IMAGE_COPIES: u64 = 3;
+
 /// Time to make and write a byte of an image.
 const IMAGE_BYTE_NS: u64 = 4;
 
@@ -260,6 +269,11 @@ const ENTRY_NS: u64 = 150_000;
 
 /// The same for each parameter and result.
 const VALUE_NS: u64 = 12_000;
+
+/// Memory for a compiled entry of a type with that many parameters and results.
+const fn entry_bytes(values: u64) -> u64 {
+    5_500 + values * 100
+}
 
 /// Time for each parameter and result of a function itself.
 const PARAMETER_NS: u64 = 2_000;
@@ -272,6 +286,7 @@ pub(super) const fn entry_ns(values: u64) -> u64 {
 fn items(count: u32, gauge: &mut Gauge<'_>, byte: u64) -> Result<(), Rejection> {
     gauge.note(Measure::ModuleItems, count.into(), byte)?;
     gauge.add_work(u64::from(count) * ITEM_NS, byte)?;
+    gauge.add_memory(u64::from(count) * ITEM_BYTES, 0, byte)?;
     gauge.add(Measure::FileItems, count.into(), byte)
 }
 
