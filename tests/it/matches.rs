@@ -10,7 +10,7 @@ use wasmouse_core::maze::{self, Maze, format};
 use wasmouse_core::record::{MatchKey, MatchSpec};
 use wasmouse_engine::bundled::BundledRobot;
 use wasmouse_engine::sandbox::{Executable, PATIENCE, WorkerOptions};
-use wasmouse_engine::{Cache, InfrastructureError, Limits, Sandboxed, engine_id};
+use wasmouse_engine::{Cache, Control, InfrastructureError, Limits, Sandboxed, engine_id};
 
 /// Kinds of generated mazes, from corridors to open spaces.
 pub const KINDS: [&str; 6] = [
@@ -43,6 +43,7 @@ pub fn sandboxed(
         executable: Executable::at(executable),
         patience: PATIENCE,
         require_sandbox: false,
+        control: Control::default(),
     };
     let rules = rules(SandboxLimits::default());
     Sandboxed::new(rules, Limits::default(), options, cache)

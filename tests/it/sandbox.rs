@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 use wasmouse_core::game::SandboxLimits;
 use wasmouse_engine::bundled::find;
 use wasmouse_engine::sandbox::{Executable, PATIENCE, Role, SandboxStatus, WorkerOptions};
-use wasmouse_engine::{Executor as _, InfrastructureError, Limits, Sandboxed};
+use wasmouse_engine::{Control, Executor as _, InfrastructureError, Limits, Sandboxed};
 use wasmouse_tests::binary::{self, Ran, ran};
 use wasmouse_tests::program::signal;
 
@@ -513,6 +513,7 @@ fn an_incomplete_sandbox_is_reported_and_changes_nothing() {
             executable: Executable::at(&program),
             patience: PATIENCE,
             require_sandbox: true,
+            control: Control::default(),
         };
         let rules = rules(SandboxLimits::default());
         let error = Sandboxed::new(rules, Limits::default(), required, None).err();

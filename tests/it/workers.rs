@@ -1,18 +1,27 @@
 //! Robots in worker processes: the same results as in this process, whatever happens to the
 //! workers.
 
+use std::ffi::OsStr;
+use std::fs;
 use std::ops::ControlFlow;
+use std::path::Path;
+use std::process::{Command, Stdio};
 use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 
 use wasmouse_core::game::SandboxLimits;
-use wasmouse_core::maze::Maze;
+use wasmouse_core::maze::{Cell, Heading, Maze, Walls};
 use wasmouse_core::record::{MatchRecord, MatchSpec};
 use wasmouse_engine::admission::{Rejection, componentize};
 use wasmouse_engine::bundled::find;
 use wasmouse_engine::sandbox::{Executable, WorkerOptions};
-use wasmouse_engine::{Executor, Frame, InProcess, InfrastructureError, Limits, Sandboxed};
+use wasmouse_engine::{
+    AdmittedRobot, Control, Executor, Frame, InProcess, InfrastructureError, Limits, Sandboxed,
+};
+use wasmouse_tests::program::{Program, signal};
+
+use crate::binary;
 
 use crate::hostile::{Engine, Module, wasm};
 use crate::matches::{WORKER, generated_mazes, rules, sandboxed, spec};
@@ -141,6 +150,7 @@ fn a_worker_that_hangs_is_an_infrastructure_error() {
         executable: Executable::at(WORKER),
         patience: Duration::from_secs(1),
         require_sandbox: false,
+        control: Control::default(),
     };
     let rules = rules(SandboxLimits::default());
     let executor = Sandboxed::new(rules, Limits::default(), options, None);
@@ -153,6 +163,154 @@ fn a_worker_that_hangs_is_an_infrastructure_error() {
         "{error}"
     );
     assert_eq!(records(played, Some(HANG)).len(), 2);
+}
+
+/// Stopped from outside, so that it does not read what does not fit into the pipe.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_worker_that_stops_reading_is_killed() {
+    let program = Program::new(Path::new(WORKER)).expect("a folder beside the worker");
+    let options = WorkerOptions {
+        executable: Executable::at(program.folder().join("wasmouse")),
+        patience: Duration::from_secs(2),
+        require_sandbox: false,
+        control: Control::default(),
+    };
+    let rules = rules(SandboxLimits::default());
+    let executor = Sandboxed::new(Arc::clone(&rules), Limits::default(), options, None);
+    let executor = executor.expect("a worker starts");
+    let flood = find("flood").expect("a bundled robot").component;
+    // 4 KB each: more than a pipe holds.
+    let mazes: Vec<Arc<Maze>> = (0..64)
+        .map(|x| {
+            let mut walls = Walls::closed(64);
+            walls.set(Cell::new(x, 0), Heading::Up, true);
+            Arc::new(Maze::contest(walls).expect("start and goal fit"))
+        })
+        .collect();
+    let play = |executor: &dyn Executor, mazes: &[Arc<Maze>], robot: &AdmittedRobot| {
+        let specs = mazes
+            .iter()
+            .map(|it| spec(&rules, robot.digest(), it, (0, 0)));
+        let specs: Vec<MatchSpec> = specs.collect();
+        let mut outcomes = Vec::new();
+        let _ = executor.execute(robot, &specs, &mut |_, played| {
+            outcomes.push(played.map(|it| it.record));
+            ControlFlow::Continue(())
+        });
+        outcomes
+    };
+    let admit = |executor: &dyn Executor| {
+        let robot = executor.admit(flood).expect("the host works");
+        robot.expect("a bundled robot")
+    };
+    let robot = admit(&executor);
+    play(&executor, &mazes[..1], &robot)[0]
+        .as_ref()
+        .expect("the worker works");
+    for process in program.processes() {
+        signal(process, "STOP");
+    }
+    let outcomes = play(&executor, &mazes, &robot);
+    let here = in_process();
+    let expected = play(&here, &mazes, &admit(&here));
+    let records = |outcomes: Vec<Result<MatchRecord, InfrastructureError>>| {
+        let records = outcomes.into_iter().map(|it| it.expect("it was played"));
+        records.collect::<Vec<_>>()
+    };
+    assert_eq!(records(outcomes), records(expected));
+}
+
+/// The number of threads that compile does not depend on the number of cores.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_compile_worker_has_the_same_threads_everywhere() {
+    let program = Program::new(&binary::path()).expect("a folder beside the binary");
+    let functions: String = (0..3000)
+        .map(|number| {
+            let step = format!("(global.set $g (i32.xor (global.get $g) (i32.const {number})))");
+            format!("(func {})", step.repeat(40))
+        })
+        .collect();
+    let rest = format!("(global $g (mut i32) (i32.const 0)) {functions}");
+    let robot = Module {
+        rest: &rest,
+        ..Module::default()
+    };
+    let file = program.folder().join("large.wasm");
+    fs::write(&file, robot.component()).expect("a file");
+    let path = program.folder().join("wasmouse");
+    let threads = |prefix: &[&str]| {
+        let mut words = prefix
+            .iter()
+            .map(AsRef::<OsStr>::as_ref)
+            .chain([path.as_os_str()]);
+        let mut command = Command::new(words.next().expect("a program"));
+        command
+            .args(words)
+            .args(["inspect", "--no-cache", "--json"])
+            .arg(&file);
+        let mut child = command.stdout(Stdio::piped()).spawn().expect("it starts");
+        let mut most = 0;
+        while child.try_wait().expect("its own child").is_none() {
+            for process in program.processes() {
+                let folder = format!("/proc/{process}");
+                let line = fs::read_to_string(format!("{folder}/cmdline")).unwrap_or_default();
+                if line.ends_with("compile\0") {
+                    let threads = fs::read_dir(format!("{folder}/task")).map_or(0, Iterator::count);
+                    most = most.max(threads);
+                }
+            }
+            thread::sleep(Duration::from_millis(1));
+        }
+        let output = child.wait_with_output().expect("it ended");
+        assert!(output.status.success());
+        (most, output.stdout)
+    };
+    let (everywhere, report) = threads(&[]);
+    // The first one, the one that reads the file, and two that compile.
+    assert_eq!(everywhere, 4);
+    if Command::new("taskset").arg("-V").output().is_err() {
+        println!("skipped: there is no `taskset`");
+        return;
+    }
+    let (on_one_core, same_report) = threads(&["taskset", "-c", "0"]);
+    assert_eq!(on_one_core, 4);
+    assert!(same_report == report, "the report depends on the cores");
+}
+
+/// Modules that are never instantiated and need more than the pool has: the engine does not load
+/// them, which is about this file and not about the host.
+#[test]
+fn code_that_does_not_load_is_a_rejection() {
+    let memories = format!("(module {})", "(memory 1)".repeat(9));
+    let tables = format!("(module {})", "(table 1 funcref)".repeat(17));
+    let modules = [
+        &memories,
+        &tables,
+        "(module (table 100001 funcref))",
+        "(module (memory 65536))",
+    ];
+    let (here, there) = (in_process(), workers());
+    for text in modules {
+        let module = wasm(text);
+        let length = u8::try_from(module.len()).expect("a short module");
+        assert!(length < 128, "its length is one byte");
+        let mut file = Module::default().component();
+        file.extend([1, length]);
+        file.extend(module);
+        let [here, there] = [&here as &dyn Executor, &there].map(|executor| {
+            let inspection = executor.inspect(&file).expect("the host works");
+            let admission = executor.admit(&file).expect("the host works");
+            let rejection = admission.err().expect("it cannot be loaded");
+            let inspected = inspection.rejection.expect("it cannot be loaded");
+            assert_eq!(inspected.to_string(), rejection.to_string());
+            rejection
+        });
+        assert_eq!(here.name(), there.name(), "{text}: {here}; {there}");
+    }
+    let played = play(&there, &mazes()[..1], &["flood"], &[0]);
+    assert_eq!(records(played, None).len(), 1);
 }
 
 /// Another version of wasmouse, or another program, is not trusted.
@@ -182,9 +340,9 @@ fn a_worker_that_is_killed_as_it_starts_is_started_again() {
          exec '{WORKER}' \"$@\"\n",
         mark = mark.display(),
     );
-    std::fs::write(&script, text).expect("a file");
-    let executable = std::fs::Permissions::from_mode(0o755);
-    std::fs::set_permissions(&script, executable).expect("its own file");
+    fs::write(&script, text).expect("a file");
+    let executable = fs::Permissions::from_mode(0o755);
+    fs::set_permissions(&script, executable).expect("its own file");
     sandboxed(&script, None).expect("the second worker works");
     assert!(mark.exists(), "one was killed");
 }

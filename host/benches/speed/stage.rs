@@ -10,7 +10,7 @@ use wasmouse_core::record::{FuelUse, MatchKey, MatchSpec};
 use wasmouse_engine::admission::componentize;
 use wasmouse_engine::bundled::find;
 use wasmouse_engine::sandbox::{Executable, PATIENCE, WorkerOptions};
-use wasmouse_engine::{CompiledRobot, Limits, Recording, Runtime, engine_id};
+use wasmouse_engine::{CompiledRobot, Control, Limits, Recording, Runtime, engine_id};
 
 /// The smallest robot that drives: one cell ahead, or a turn to the right at a wall.
 const DRIVER: &str = r#"(module
@@ -37,6 +37,7 @@ pub fn workers() -> WorkerOptions {
         executable: Executable::at(env!("CARGO_BIN_EXE_wasmouse")),
         patience: PATIENCE,
         require_sandbox: false,
+        control: Control::default(),
     }
 }
 

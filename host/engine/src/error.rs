@@ -25,6 +25,18 @@ pub enum InfrastructureError {
         /// The limit.
         seconds: u64,
     },
+    /// A match took too much processor time, although it had fuel left.
+    #[error("a match did not end within {seconds} s of processor time")]
+    Slow {
+        /// The limit.
+        seconds: u64,
+    },
+    /// The robot plays no more matches.
+    #[error("the robot was withdrawn: {0}")]
+    Withdrawn(Withdrawal),
+    /// Everything was cancelled.
+    #[error("cancelled")]
+    Cancelled,
     /// A worker process could not do its work.
     #[error("{role} worker failed: {reason}")]
     Worker {
@@ -55,7 +67,34 @@ pub enum InfrastructureError {
     ForeignRobot,
 }
 
+/// Why a robot plays no more matches of a contest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Withdrawal {
+    /// Matches did not end in time.
+    #[error("{times} of its matches did not end in time")]
+    Stalled {
+        /// How many.
+        times: u32,
+    },
+    /// It has no processor time left.
+    #[error("it has used up its {seconds} s of processor time")]
+    Spent {
+        /// Its budget.
+        seconds: u64,
+    },
+}
+
 impl InfrastructureError {
+    /// Whether a match did not end in time, which another try may change.
+    pub const fn is_stall(&self) -> bool {
+        matches!(self, Self::Stalled { .. } | Self::Slow { .. })
+    }
+
+    /// Whether trying again at once cannot help.
+    pub(crate) const fn is_final(&self) -> bool {
+        self.is_stall() || matches!(self, Self::Withdrawn(_) | Self::Cancelled)
+    }
+
     #[expect(
         clippy::needless_pass_by_value,
         reason = "used as a function in map_err"

@@ -16,6 +16,7 @@ use crate::limits::Limits;
 use crate::runner::Recording;
 use crate::runtime::{Cache, CacheUse, CompiledRobot, Frame, Runtime};
 use crate::sandbox::{SandboxStatus, SandboxedRobot, Supervisor, WorkerOptions};
+use crate::time::{Account, Control, MatchClock};
 
 /// A match that was played.
 #[derive(Debug)]
@@ -58,7 +59,8 @@ pub trait Executor: Sync {
     fn inspect(&self, file: &[u8]) -> Result<Inspection, InfrastructureError>;
 
     /// Plays matches of one robot, in order, and passes each to the sink as it ends. Stops
-    /// when the sink breaks.
+    /// when the sink breaks, and when everything is cancelled. A match that does not end in time
+    /// is not played again: that is left to the caller.
     fn execute(
         &self,
         robot: &AdmittedRobot,
@@ -93,7 +95,10 @@ pub trait Executor: Sync {
 }
 
 /// A robot that an executor has admitted, and that only this executor can play.
-pub struct AdmittedRobot(pub(crate) Handle);
+pub struct AdmittedRobot {
+    pub(crate) handle: Handle,
+    account: Arc<Account>,
+}
 
 pub(crate) enum Handle {
     InProcess(Box<CompiledRobot>),
@@ -103,29 +108,34 @@ pub(crate) enum Handle {
 impl AdmittedRobot {
     /// The digest of the file that was admitted.
     pub const fn digest(&self) -> &Digest {
-        match &self.0 {
+        match &self.handle {
             Handle::InProcess(robot) => robot.digest(),
             Handle::Sandboxed(robot) => robot.digest(),
         }
     }
 
+    /// The processor time that its matches have used, in all variants.
+    pub const fn account(&self) -> &Arc<Account> {
+        &self.account
+    }
+
     /// Where its compiled code came from.
     pub const fn cache_use(&self) -> &CacheUse {
-        match &self.0 {
+        match &self.handle {
             Handle::InProcess(robot) => robot.cache_use(),
             Handle::Sandboxed(robot) => robot.cache_use(),
         }
     }
 
     fn in_process(&self) -> Result<&CompiledRobot, InfrastructureError> {
-        match &self.0 {
+        match &self.handle {
             Handle::InProcess(robot) => Ok(robot),
             Handle::Sandboxed(_) => Err(InfrastructureError::ForeignRobot),
         }
     }
 
     const fn sandboxed(&self) -> Result<&SandboxedRobot, InfrastructureError> {
-        match &self.0 {
+        match &self.handle {
             Handle::Sandboxed(robot) => Ok(robot),
             Handle::InProcess(_) => Err(InfrastructureError::ForeignRobot),
         }
@@ -135,6 +145,7 @@ impl AdmittedRobot {
 /// Runs robots in this process: for robots that are trusted.
 pub struct InProcess {
     runtime: Runtime,
+    control: Control,
 }
 
 impl InProcess {
@@ -150,16 +161,34 @@ impl InProcess {
         cache: Option<Cache>,
     ) -> Result<Self, InfrastructureError> {
         let runtime = Runtime::new(limits, matches, cache)?;
-        Ok(Self { runtime })
+        let control = Control::default();
+        Ok(Self { runtime, control })
+    }
+
+    /// The executor with something else that ends its matches.
+    #[must_use]
+    pub fn with_control(mut self, control: Control) -> Self {
+        self.control = control;
+        self
     }
 
     fn play(
         &self,
-        robot: &CompiledRobot,
+        robot: &AdmittedRobot,
         spec: &MatchSpec,
         recording: &mut Recording,
     ) -> Result<MatchRecord, InfrastructureError> {
-        let (result, fuel) = self.runtime.run(robot, spec, recording)?;
+        let (compiled, account) = (robot.in_process()?, &robot.account);
+        account.check()?;
+        let clock = MatchClock::start(self.control.clone(), Some(Arc::clone(account)));
+        let ran = self.runtime.run_within(compiled, spec, recording, &clock);
+        clock.charge();
+        match &ran {
+            Ok(_) => account.count_match(),
+            Err(error) if error.is_stall() => account.count_stall(),
+            Err(_) => {}
+        }
+        let (result, fuel) = ran?;
         let journal = recording.journal.counts();
         Ok(MatchRecord::new(
             spec.key,
@@ -174,7 +203,10 @@ impl InProcess {
 impl Executor for InProcess {
     fn admit(&self, file: &[u8]) -> Result<Result<AdmittedRobot, Rejection>, InfrastructureError> {
         let admitted = self.runtime.admit(file);
-        Ok(admitted.map(|robot| AdmittedRobot(Handle::InProcess(Box::new(robot)))))
+        Ok(admitted.map(|robot| AdmittedRobot {
+            handle: Handle::InProcess(Box::new(robot)),
+            account: Arc::default(),
+        }))
     }
 
     fn inspect(&self, file: &[u8]) -> Result<Inspection, InfrastructureError> {
@@ -201,13 +233,15 @@ impl Executor for InProcess {
     ) -> ControlFlow<()> {
         let mut recording = Recording::default();
         batch.iter().try_for_each(|spec| {
-            let mut play = || self.play(robot.in_process()?, spec, &mut recording);
-            // A failure of the host may be a passing one.
-            let played = play().or_else(|_| play()).map(|record| Played {
-                record,
-                transcript: &recording.transcript,
-            });
-            sink(spec, played)
+            let mut play = || self.play(robot, spec, &mut recording);
+            let played = match play() {
+                Err(InfrastructureError::Cancelled) => return ControlFlow::Break(()),
+                // A failure of the host may be a passing one.
+                Err(error) if !error.is_final() => play(),
+                played => played,
+            };
+            let transcript = &recording.transcript;
+            sink(spec, played.map(|record| Played { record, transcript }))
         })
     }
 
@@ -217,7 +251,7 @@ impl Executor for InProcess {
         spec: &MatchSpec,
     ) -> Result<DetailedMatch, InfrastructureError> {
         let mut recording = Recording::default();
-        let record = self.play(robot.in_process()?, spec, &mut recording)?;
+        let record = self.play(robot, spec, &mut recording)?;
         Ok(DetailedMatch { record, recording })
     }
 
@@ -234,7 +268,8 @@ impl Executor for InProcess {
             return Ok(None);
         };
         let mut recording = Recording::default();
-        let (result, _) = runtime.run(&robot, spec, &mut recording)?;
+        let clock = MatchClock::start(self.control.clone(), None);
+        let (result, _) = runtime.run_within(&robot, spec, &mut recording, &clock)?;
         Ok(match result.verdict.fault() {
             Some(again) if again == fault => Some(recording.frames),
             _ => None,
@@ -273,7 +308,10 @@ impl Sandboxed {
 impl Executor for Sandboxed {
     fn admit(&self, file: &[u8]) -> Result<Result<AdmittedRobot, Rejection>, InfrastructureError> {
         let admitted = self.supervisor.admit(file)?;
-        Ok(admitted.map(|robot| AdmittedRobot(Handle::Sandboxed(robot))))
+        Ok(admitted.map(|robot| AdmittedRobot {
+            account: Arc::clone(robot.account()),
+            handle: Handle::Sandboxed(robot),
+        }))
     }
 
     fn inspect(&self, file: &[u8]) -> Result<Inspection, InfrastructureError> {

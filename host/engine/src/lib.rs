@@ -5,6 +5,7 @@
 //! |---|---|
 //! | [`admission`] | whether a file can be a robot: [`examine`](admission::examine) |
 //! | `runtime` | wasmtime: [`Runtime`], compiled robots, limits, backtraces |
+//! | `time` | processor time: [`Account`], [`Control`] |
 //! | `runner` | one match: [`Runtime::run`] |
 //! | [`sandbox`] | untrusted robots in worker processes |
 //! | `executor` | [`Executor`]: [`InProcess`] and [`Sandboxed`] |
@@ -28,13 +29,15 @@ mod local_executor;
 mod runner;
 mod runtime;
 pub mod sandbox;
+mod time;
 
-pub use error::InfrastructureError;
+pub use error::{InfrastructureError, Withdrawal};
 pub use executor::{AdmittedRobot, DetailedMatch, Executor, InProcess, Played, Sandboxed, Sink};
 pub use limits::{AdmissionLimits, Limits, STACK_BYTES};
 pub use local_executor::{Isolation, LocalExecutor, Trust};
 pub use runner::Recording;
 pub use runtime::{
-    Cache, CacheUse, CompiledRobot, ENGINE_REVISION, Frame, MATCH_SECONDS_MAX, Runtime,
-    WASMTIME_VERSION, engine_config, engine_id,
+    Cache, CacheUse, CompiledRobot, ENGINE_REVISION, Frame, Runtime, WASMTIME_VERSION,
+    engine_config, engine_id,
 };
+pub use time::{Account, CancelFlag, Control, MATCH_TIME_MAX};

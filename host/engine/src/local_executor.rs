@@ -12,6 +12,7 @@ use crate::executor::{AdmittedRobot, DetailedMatch, Executor, Handle, InProcess,
 use crate::limits::Limits;
 use crate::runtime::{Cache, Frame};
 use crate::sandbox::{SandboxStatus, WorkerOptions};
+use crate::time::Control;
 
 /// Whose code a robot is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,6 +45,7 @@ pub struct LocalExecutor {
     matches: u32,
     cache: Option<Cache>,
     isolation: Isolation,
+    control: Control,
     in_process: OnceLock<InProcess>,
     sandboxed: OnceLock<Sandboxed>,
 }
@@ -63,9 +65,18 @@ impl LocalExecutor {
             matches,
             cache,
             isolation,
+            control: Control::default(),
             in_process: OnceLock::new(),
             sandboxed: OnceLock::new(),
         }
+    }
+
+    /// The executor with something else that ends matches of this process; workers have it in
+    /// their options.
+    #[must_use]
+    pub fn with_control(mut self, control: Control) -> Self {
+        self.control = control;
+        self
     }
 
     /// The rules of all matches.
@@ -130,7 +141,8 @@ impl LocalExecutor {
             Isolation::Workers(_) | Isolation::None => {}
         }
         let executor = get_or_try_init(&self.in_process, || {
-            InProcess::new(self.limits, self.matches, self.cache.clone())
+            let executor = InProcess::new(self.limits, self.matches, self.cache.clone())?;
+            Ok(executor.with_control(self.control.clone()))
         })?;
         Ok(executor)
     }
@@ -145,7 +157,7 @@ impl LocalExecutor {
 
     /// The executor that admitted a robot.
     fn of(&self, robot: &AdmittedRobot) -> Result<&dyn Executor, InfrastructureError> {
-        let executor: Option<&dyn Executor> = match robot.0 {
+        let executor: Option<&dyn Executor> = match robot.handle {
             Handle::InProcess(_) => self.in_process.get().map(|it| it as _),
             Handle::Sandboxed(_) => self.sandboxed.get().map(|it| it as _),
         };

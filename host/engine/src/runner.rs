@@ -3,16 +3,19 @@
 //! A pure function of the match's key: a fresh store and instance per match, fuel from the
 //! first instruction, and no clock.
 
+use std::sync::Arc;
+
 use wasmouse_core::game::{FaultKind, FuelLimit, Phase, SandboxLimits, Simulation};
 use wasmouse_core::journal::Journal;
 use wasmouse_core::record::{FuelUse, GameResult, MatchSpec, Transcript};
-use wasmtime::Store;
+use wasmtime::{Store, UpdateDeadline};
 
 use crate::error::InfrastructureError;
 use crate::runtime::{
     CompiledRobot, Frame, Guest, Instance, Runtime, action, briefing, classify, frames,
-    match_epochs_max, out_of_fuel, sensors,
+    out_of_fuel, sensors,
 };
+use crate::time::{Control, MatchClock};
 
 /// Everything that a match leaves behind besides its result and fuel. Reused from match to
 /// match, so that a long contest allocates once.
@@ -56,6 +59,18 @@ impl Runtime {
         spec: &MatchSpec,
         recording: &mut Recording,
     ) -> Result<(GameResult, FuelUse), InfrastructureError> {
+        let clock = MatchClock::start(Control::default(), None);
+        self.run_within(robot, spec, recording, &clock)
+    }
+
+    /// [`Runtime::run`] for as long as the clock allows, which was started on this thread.
+    pub(crate) fn run_within(
+        &self,
+        robot: &CompiledRobot,
+        spec: &MatchSpec,
+        recording: &mut Recording,
+        clock: &Arc<MatchClock>,
+    ) -> Result<(GameResult, FuelUse), InfrastructureError> {
         assert_eq!(
             spec.rules.sandbox,
             self.limits().sandbox,
@@ -69,7 +84,9 @@ impl Runtime {
             step: 0,
         };
         let mut simulation = Simulation::new(&spec.maze, &spec.rules.game);
-        let mut runner = Runner::new(self.store(guest), spec, recording);
+        let mut store = self.store(guest);
+        watch(&mut store, clock);
+        let mut runner = Runner::new(store, spec, recording);
         let ended = runner.run(robot, &mut simulation);
         let fuel = runner.fuel;
         recording.journal = runner.store.into_data().journal;
@@ -82,6 +99,16 @@ impl Runtime {
             .expect("a match that was simulated step by step follows the rules");
         Ok((result, fuel))
     }
+}
+
+/// Asks the clock with every epoch whether the match may go on.
+fn watch(store: &mut Store<Guest>, clock: &Arc<MatchClock>) {
+    let clock = Arc::clone(clock);
+    store.set_epoch_deadline(1);
+    store.epoch_deadline_callback(move |_| {
+        clock.check().map_err(wasmtime::Error::new)?;
+        Ok(UpdateDeadline::Continue(1))
+    });
 }
 
 /// One match in progress, on the side of the robot.
@@ -110,7 +137,6 @@ impl<'a> Runner<'a> {
     fn new(mut store: Store<Guest>, spec: &'a MatchSpec, recording: &'a mut Recording) -> Self {
         let limits = &spec.rules.sandbox;
         store.limiter(|guest| &mut guest.limiter);
-        store.set_epoch_deadline(match_epochs_max());
         let copied_max = usize::try_from(limits.host_call_bytes_max).unwrap_or(usize::MAX);
         store.set_hostcall_fuel(copied_max);
         // The interface has no resources, so a robot never holds a handle.
@@ -214,6 +240,11 @@ impl<'a> Runner<'a> {
         let called = match called {
             Ok(value) => Ok(value),
             Err(error) => {
+                // The clock said so, or the host itself failed.
+                let error = match error.downcast::<InfrastructureError>() {
+                    Ok(error) => return Err(error),
+                    Err(error) => error,
+                };
                 let limits = &self.spec.rules.sandbox;
                 let max = match limit {
                     FuelLimit::Match => limits.match_fuel_max,

@@ -8,7 +8,7 @@ use std::thread;
 use etcetera::BaseStrategy as _;
 use wasmouse_core::game::Ruleset;
 use wasmouse_engine::sandbox::{Executable, PATIENCE, WorkerOptions};
-use wasmouse_engine::{Cache, Isolation, LocalExecutor};
+use wasmouse_engine::{Cache, Control, Isolation, LocalExecutor};
 
 use super::failure::Failure;
 use super::output::message;
@@ -162,6 +162,7 @@ impl IsolationArgs {
             executable,
             patience: PATIENCE,
             require_sandbox: self.require_sandbox,
+            control: Control::default(),
         }))
     }
 }

@@ -27,19 +27,13 @@ pub const WASMTIME_VERSION: &str = "48.0.8";
 /// Raised with every change to this file that can change fuel or a verdict.
 pub const ENGINE_REVISION: u32 = 5;
 
-/// Wall time after which a match is given up as a failure of the host, in
-/// seconds. All the fuel of the default limits lasts 2 s in a robot like flood and
-/// 25 s in work that takes ten times as long for its fuel; the rest is for slower and
-/// busier machines. What reaches this is a host that stands still, or a robot that
-/// waits for memory all the time, and it is never a verdict.
-pub const MATCH_SECONDS_MAX: u64 = 120;
-
 /// Memory that an unused slot of the pool keeps, at most, for each linear memory and
 /// each table. Compiled robots write under 100 KiB; what an interpreter writes beyond
 /// this goes back to the system.
 const RESIDENT_BYTES_MAX: usize = 1 << 20;
 
-const EPOCH: Duration = Duration::from_millis(250);
+/// How often a match in progress asks whether it may go on.
+const EPOCH: Duration = Duration::from_millis(100);
 
 /// What a result depends on besides robot, maze, ruleset and seed: the version
 /// of wasmtime, the revision of its configuration, and the processor that code is made for.
@@ -50,11 +44,6 @@ pub fn engine_id() -> EngineId {
     EngineId::new(format!(
         "wasmtime-{WASMTIME_VERSION}+wasmouse.{ENGINE_REVISION}.{target}"
     ))
-}
-
-/// Epochs in [`MATCH_SECONDS_MAX`].
-pub(crate) const fn match_epochs_max() -> u64 {
-    MATCH_SECONDS_MAX * 1000 / EPOCH.as_millis() as u64
 }
 
 /// The engine of a host that runs up to `matches` matches at the same time.
@@ -107,8 +96,8 @@ fn compiler_config(limits: &Limits) -> Config {
     let mut config = Config::new();
     TARGET.apply(&mut config);
 
-    // What ends a match. Fuel is exact and reproducible; epochs are the safety
-    // net for a host that stands still.
+    // What ends a match. Fuel is exact and reproducible; epochs are how a match asks for
+    // its processor time now and then.
     config.consume_fuel(true);
     config.operator_cost(cost::operator_cost());
     config.epoch_interruption(true);

@@ -11,7 +11,6 @@ use std::str::Utf8Error;
 use wasmouse_core::game::{FaultKind, FuelLimit};
 use wasmtime::Trap;
 
-use super::config::MATCH_SECONDS_MAX;
 use super::guest::Panicked;
 use super::limiter::LimitExceeded;
 use crate::error::InfrastructureError;
@@ -64,11 +63,7 @@ pub(crate) fn classify(
     let fault = match error.downcast_ref::<Trap>() {
         Some(Trap::OutOfFuel) => return Ok(out_of_fuel(fuel)),
         // The safety net of the host: says nothing about the robot.
-        Some(Trap::Interrupt) => {
-            return Err(InfrastructureError::Stalled {
-                seconds: MATCH_SECONDS_MAX,
-            });
-        }
+        Some(Trap::Interrupt) => return Err(InfrastructureError::call(error)),
         Some(trap) => fault_of_trap(*trap),
         None => violation(error, copied_max),
     };
@@ -166,7 +161,7 @@ mod tests {
     fn the_safety_net_is_never_a_verdict() {
         assert!(matches!(
             sorted(Trap::Interrupt),
-            Err(InfrastructureError::Stalled { .. })
+            Err(InfrastructureError::Call(_))
         ));
     }
 

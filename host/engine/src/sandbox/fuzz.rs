@@ -46,6 +46,7 @@ fn table() -> Table {
     let setup = Setup {
         rules: rules(),
         limits: limits(),
+        match_time: crate::time::MATCH_TIME_MAX,
     };
     let mut table = Table::new(runtime, setup, &|_| ());
     table.robots.push(Some(flood));
@@ -361,7 +362,7 @@ mod tests {
     #[test]
     fn a_failure_of_the_worker_is_no_report() {
         let report = MatchReport {
-            transcript: Err(RunFailure::Stalled),
+            transcript: Err(RunFailure::Slow { seconds: 1 }),
             ..failed_report(false)
         };
         assert!(!check_report(report));

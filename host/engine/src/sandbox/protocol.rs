@@ -7,6 +7,7 @@
 //! frames have a maximum size, and whoever uses a value checks it.
 
 use std::io::{self, Read, Write};
+use std::time::Duration;
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -38,6 +39,8 @@ pub(super) struct Setup {
     pub(super) rules: Ruleset,
     /// The limits that its robots were admitted under.
     pub(super) limits: Limits,
+    /// Processor time of a match, at most.
+    pub(super) match_time: Duration,
 }
 
 /// The first frame from a worker.
@@ -103,6 +106,8 @@ pub(super) enum Loaded {
     Ready(Option<ResourceRequirements>),
     /// It cannot be a robot.
     Rejected(RejectionText),
+    /// The engine does not take the code, and why.
+    Unloadable(RejectionText),
     /// The code is not what its digest says.
     Damaged,
 }
@@ -124,8 +129,11 @@ pub(super) struct MatchReport {
 /// Why a worker could not play a match, although the robot did nothing wrong.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) enum RunFailure {
-    /// The match did not end in time on the wall clock.
-    Stalled,
+    /// The match did not end within that processor time.
+    Slow {
+        /// The limit.
+        seconds: u64,
+    },
     /// Anything else.
     Failed(String),
 }

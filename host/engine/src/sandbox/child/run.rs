@@ -21,6 +21,7 @@ use crate::error::InfrastructureError;
 use crate::limits::{Limits, STACK_BYTES};
 use crate::runner::Recording;
 use crate::runtime::{CompiledRobot, Runtime, engine_id};
+use crate::time::{Control, MatchClock};
 
 /// Reports wait this long at most for others to be sent with them.
 const REPORT_DELAY_MAX: Duration = Duration::from_millis(20);
@@ -100,6 +101,7 @@ pub(in crate::sandbox) struct Table {
     /// By slot, with the digest.
     pub(in crate::sandbox) mazes: Vec<Option<(Digest, Arc<Maze>)>>,
     recording: Recording,
+    control: Control,
     before_match: &'static (dyn Fn(u64) + Sync),
 }
 
@@ -117,6 +119,10 @@ impl Table {
             robots: Vec::new(),
             mazes: Vec::new(),
             recording: Recording::default(),
+            control: Control {
+                match_time: setup.match_time,
+                ..Control::default()
+            },
             before_match,
         }
     }
@@ -162,9 +168,9 @@ impl Table {
                 put(&mut self.robots, slot, robot);
                 Loaded::Ready(requirements)
             }
-            // The robot was valid when it was compiled, so this is about its code: from
-            // another version of wasmtime, say.
-            Err(Rejection::Invalid(_)) => Loaded::Damaged,
+            // From another version of wasmtime, say, or more than the pool has room for. The
+            // supervisor knows how old the code is.
+            Err(rejection @ Rejection::Invalid(_)) => Loaded::Unloadable(rejection.into()),
             Err(rejection) => Loaded::Rejected(rejection.into()),
         }
     }
@@ -188,7 +194,10 @@ impl Table {
         let (robot, spec) = self
             .find(batch, order)
             .ok_or_else(|| io::Error::other("a match of an unknown robot or maze"))?;
-        let ran = self.runtime.run(robot, &spec, &mut recording);
+        let clock = MatchClock::start(self.control.clone(), None);
+        let ran = self
+            .runtime
+            .run_within(robot, &spec, &mut recording, &clock);
         let report = report(ran, &recording, batch.details);
         self.recording = recording;
         Ok(report)
@@ -225,7 +234,9 @@ fn report(
 ) -> MatchReport {
     let (transcript, fuel) = match ran {
         Ok((_, fuel)) => (Ok(recording.transcript.to_bytes()), fuel),
-        Err(InfrastructureError::Stalled { .. }) => (Err(RunFailure::Stalled), FuelUse::default()),
+        Err(InfrastructureError::Slow { seconds }) => {
+            (Err(RunFailure::Slow { seconds }), FuelUse::default())
+        }
         Err(error) => (
             Err(RunFailure::Failed(error.to_string())),
             FuelUse::default(),

@@ -8,9 +8,10 @@ use wasmtime::Engine;
 use super::super::protocol::{Compiled, Loaded};
 use super::super::role::Role;
 use super::compiler::{Compiler, Findings, Wanted};
+use super::monitor::Kill;
 use super::pool::Pool;
 use super::robot::SandboxedRobot;
-use crate::admission::{Inspection, Rejection, check_size};
+use crate::admission::{Inspection, Rejection, ResourceRequirements, check_size};
 use crate::error::InfrastructureError;
 use crate::runtime::{Cache, CacheUse, CompiledCode, Destination};
 
@@ -39,10 +40,17 @@ impl Admitter<'_> {
             return Ok(Err(rejection));
         }
         let digest = Digest::of(bytes);
-        if let Some(code) = self.cached(&digest)
-            && let Some(admitted) = self.load(&digest, Arc::new(code), CacheUse::Hit)?
-        {
-            return Ok(admitted);
+        if let Some(code) = self.cached(&digest) {
+            match self.load(&digest, Arc::new(code), CacheUse::Hit)? {
+                Attempt::Loaded(robot) => return Ok(Ok(robot)),
+                Attempt::Rejected(rejection) => return Ok(Err(rejection)),
+                // The entry may be damaged, or of another build; the file is compiled again.
+                Attempt::Damaged | Attempt::Unloadable(_) => {
+                    if let Some(cache) = self.cache {
+                        cache.forget(self.engine, &digest);
+                    }
+                }
+            }
         }
         let (findings, cache) = match self.compile(bytes, &digest)? {
             Ok(compiled) => compiled,
@@ -53,9 +61,15 @@ impl Admitter<'_> {
             (Compiled::Code { .. }, Some(code)) => code,
             _ => return Err(compile_failed("it sent no code".into())),
         };
-        let damaged = || compile_failed("its code was damaged as soon as it was written".into());
-        self.load(&digest, Arc::new(code), cache)?
-            .ok_or_else(damaged)
+        match self.load(&digest, Arc::new(code), cache)? {
+            Attempt::Loaded(robot) => Ok(Ok(robot)),
+            // The code is what the compile worker made of this file a moment ago, so what is
+            // wrong with it is wrong with the file.
+            Attempt::Rejected(rejection) | Attempt::Unloadable(rejection) => Ok(Err(rejection)),
+            Attempt::Damaged => Err(compile_failed(
+                "its code was damaged as soon as it was written".into(),
+            )),
+        }
     }
 
     /// Examines a file as [`Admitter::admit`] does, and reports everything.
@@ -135,53 +149,75 @@ impl Admitter<'_> {
         }
     }
 
-    /// Has a worker load the code; `None` when the code is damaged.
+    /// Has a worker load the code.
     fn load(
         &self,
         digest: &Digest,
         code: Arc<CompiledCode>,
         cache: CacheUse,
-    ) -> Result<Option<Result<SandboxedRobot, Rejection>>, InfrastructureError> {
+    ) -> Result<Attempt, InfrastructureError> {
         let mut tries = 0;
+        // The first worker may have run other robots.
+        let mut worker = self.pool.take(digest)?;
         loop {
             tries += 1;
-            let mut worker = self.pool.take(digest)?;
-            match worker.load(digest, &code) {
-                Ok(Some(Loaded::Damaged)) => {
-                    self.pool.put(worker);
-                    if let Some(cache) = self.cache {
-                        cache.forget(self.engine, digest);
-                    }
-                    return Ok(None);
-                }
-                Ok(Some(Loaded::Rejected(text))) => {
-                    self.pool.put(worker);
-                    return Ok(Some(Err(text.into())));
-                }
+            let exit = match worker.load(digest, &code) {
                 Ok(loaded) => {
                     self.pool.put(worker);
-                    let requirements = match loaded {
-                        Some(Loaded::Ready(requirements)) => requirements,
-                        _ => None,
-                    };
-                    return Ok(Some(Ok(SandboxedRobot {
-                        digest: *digest,
-                        code,
-                        cache,
-                        requirements,
-                    })));
+                    return Ok(match loaded {
+                        Some(Loaded::Damaged) => Attempt::Damaged,
+                        Some(Loaded::Unloadable(text)) => Attempt::Unloadable(text.into()),
+                        Some(Loaded::Rejected(text)) => Attempt::Rejected(text.into()),
+                        Some(Loaded::Ready(requirements)) => {
+                            Attempt::Loaded(robot(digest, code, cache, requirements))
+                        }
+                        None => Attempt::Loaded(robot(digest, code, cache, None)),
+                    });
                 }
-                Err(error) => {
-                    let exit = worker.reap(&error);
-                    if tries == TRIES {
-                        return Err(InfrastructureError::Worker {
-                            role: Role::Run.name(),
-                            reason: exit.to_string(),
-                        });
-                    }
-                }
+                Err(error) => worker.reap(&error),
+            };
+            if exit.killed == Some(Kill::Cancelled) {
+                return Err(InfrastructureError::Cancelled);
             }
+            // A worker that has run nothing else was ended by this code.
+            if tries > 1 && exit.is_crash() {
+                let reason = format!("makes code that crashes the worker that loads it ({exit})");
+                return Ok(Attempt::Rejected(Rejection::Uncompilable(reason)));
+            }
+            if tries == TRIES || (tries > 1 && !exit.is_kill()) {
+                return Err(InfrastructureError::Worker {
+                    role: Role::Run.name(),
+                    reason: exit.to_string(),
+                });
+            }
+            worker = self.pool.start()?;
         }
+    }
+}
+
+/// What came of loading compiled code.
+enum Attempt {
+    Loaded(SandboxedRobot),
+    /// It cannot be a robot.
+    Rejected(Rejection),
+    /// The engine does not take the code.
+    Unloadable(Rejection),
+    /// The code is not what it was.
+    Damaged,
+}
+
+fn robot(
+    digest: &Digest,
+    code: Arc<CompiledCode>,
+    cache: CacheUse,
+    requirements: Option<ResourceRequirements>,
+) -> SandboxedRobot {
+    SandboxedRobot {
+        digest: *digest,
+        code,
+        cache,
+        requirements,
+        account: Arc::default(),
     }
 }
 

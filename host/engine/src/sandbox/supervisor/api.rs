@@ -14,7 +14,7 @@ use super::super::protocol::{Backtrace, BacktraceOrder};
 use super::super::role::{COMPILE_CPU_SECONDS, Role, SandboxStatus};
 use super::admit::Admitter;
 use super::group::Groups;
-use super::monitor::Monitor;
+use super::monitor::{Limit, Monitor};
 use super::play::Sink;
 use super::pool::Pool;
 use super::process::{Process, Starter, WorkerOptions};
@@ -56,7 +56,8 @@ impl Supervisor {
     ) -> Result<Self, InfrastructureError> {
         let engine = new_compiler(&limits)?;
         let starter = Starter {
-            monitor: Monitor::start().map_err(InfrastructureError::Thread)?,
+            monitor: Monitor::start(workers.control.cancel.clone())
+                .map_err(InfrastructureError::Thread)?,
             workers,
             groups: Groups::find(),
         };
@@ -128,7 +129,7 @@ impl Supervisor {
     ///
     /// # Errors
     ///
-    /// When the machine gives no process.
+    /// When the machine gives no process, or the worker takes too long or fails.
     pub fn backtrace(
         &self,
         file: &[u8],
@@ -136,27 +137,31 @@ impl Supervisor {
         fault: &Fault,
     ) -> Result<Option<Vec<Frame>>, InfrastructureError> {
         let mut process = Process::start(&self.pool.starter, Role::Backtrace)?;
-        process.set_deadline(BACKTRACE_TIME_MAX);
-        let backtrace = (|| -> io::Result<Backtrace> {
-            process.send(&BacktraceOrder {
-                rules: Ruleset::clone(&spec.rules),
-                limits: self.pool.limits,
-                maze: spec.maze.identity_bytes(),
-                seed: spec.key.seed,
-                variant: spec.key.variant,
-                length: u64::try_from(file.len()).unwrap_or(u64::MAX),
-            })?;
-            process.writer().write_all(file)?;
-            process.flush()?;
-            let sandbox = process.greet()?;
+        let order = BacktraceOrder {
+            rules: Ruleset::clone(&spec.rules),
+            limits: self.pool.limits,
+            maze: spec.maze.identity_bytes(),
+            seed: spec.key.seed,
+            variant: spec.key.variant,
+            length: u64::try_from(file.len()).unwrap_or(u64::MAX),
+        };
+        let backtrace = process.exchange(Limit::wall(BACKTRACE_TIME_MAX), |talk| {
+            talk.send(&order)?;
+            talk.writer().write_all(file)?;
+            talk.flush()?;
+            let sandbox = talk.greet()?;
             self.pool.starter.check(sandbox).map_err(io::Error::other)?;
-            process.receive()
-        })();
+            talk.receive::<Backtrace>()
+        });
         // A backtrace is optional: whatever goes wrong here, the verdict stands.
+        let backtrace = backtrace.map_err(|error| InfrastructureError::Worker {
+            role: Role::Backtrace.name(),
+            reason: process.reap(&error).to_string(),
+        })?;
         Ok(match backtrace {
-            Ok(Backtrace {
+            Backtrace {
                 fault: Some((kind, frames)),
-            }) if kind == fault.kind => {
+            } if kind == fault.kind => {
                 let frames = frames.into_iter().take(FRAMES_MAX);
                 Some(frames.map(Frame::checked).collect())
             }

@@ -7,7 +7,6 @@ use wasmouse_core::record::{Ending, FuelUse, MatchRecord, MatchSpec, Transcript,
 use super::super::protocol::{Details, MatchReport, RunFailure};
 use crate::error::InfrastructureError;
 use crate::runner::Recording;
-use crate::runtime::MATCH_SECONDS_MAX;
 
 /// The text of a fault is a sentence; wasmtime's longest have a few hundred bytes.
 const DETAIL_BYTES_MAX: usize = 16 << 10;
@@ -39,11 +38,7 @@ pub(in crate::sandbox) fn check(
         Ok(bytes) => {
             Transcript::from_bytes(&bytes).map_err(|error| ProtocolViolation(error.to_string()))?
         }
-        Err(RunFailure::Stalled) => {
-            return Ok(Err(InfrastructureError::Stalled {
-                seconds: MATCH_SECONDS_MAX,
-            }));
-        }
+        Err(RunFailure::Slow { seconds }) => return Ok(Err(InfrastructureError::Slow { seconds })),
         Err(RunFailure::Failed(reason)) => return Ok(Err(InfrastructureError::Call(reason))),
     };
     check_fuel(report.fuel, limits)?;

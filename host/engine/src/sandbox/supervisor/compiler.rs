@@ -5,7 +5,8 @@ use std::time::Duration;
 
 use super::super::protocol::{CompileOrder, Compiled, Examined};
 use super::super::role::{COMPILE_CPU_SECONDS, COMPILE_MEMORY_BYTES, Role, SandboxStatus};
-use super::process::{Process, Starter, WorkerExit};
+use super::monitor::{Kill, Limit};
+use super::process::{Process, Starter, Talk, WorkerExit};
 use crate::admission::Rejection;
 use crate::error::InfrastructureError;
 use crate::limits::Limits;
@@ -43,19 +44,6 @@ pub(super) struct Compiler<'a> {
     pub(super) limits: &'a Limits,
 }
 
-/// How an attempt failed.
-enum Failed {
-    /// The worker, or the pipe to it.
-    Worker {
-        process: Process,
-        error: io::Error,
-        /// Whether the worker had begun with the file.
-        begun: bool,
-    },
-    /// Anything else that is not about the file.
-    Infrastructure(InfrastructureError),
-}
-
 impl Compiler<'_> {
     /// Has a worker look at the file and compile it, and writes the code to the
     /// destination.
@@ -73,16 +61,20 @@ impl Compiler<'_> {
         let mut tries = 0;
         loop {
             tries += 1;
-            let process = Process::start(self.starter, Role::Compile)?;
-            let (exit, begun) = match self.attempt(process, file, wanted, destination) {
-                Ok(findings) => return Ok(Ok(findings)),
-                Err(Failed::Infrastructure(error)) => return Err(error),
-                Err(Failed::Worker {
-                    process,
-                    error,
-                    begun,
-                }) => (process.reap(&error), begun),
+            let mut process = Process::start(self.starter, Role::Compile)?;
+            // Whether the worker had begun with the file.
+            let mut begun = false;
+            let limit = Limit::wall(COMPILE_TIME_MAX);
+            let attempt = process.exchange(limit, |talk| {
+                self.attempt(talk, file, wanted, destination, &mut begun)
+            });
+            let exit = match attempt {
+                Ok(findings) => return findings.map(Ok),
+                Err(error) => process.reap(&error),
             };
+            if exit.killed == Some(Kill::Cancelled) {
+                return Err(InfrastructureError::Cancelled);
+            }
             if !begun && tries == TRIES {
                 return Err(InfrastructureError::Worker {
                     role: Role::Compile.name(),
@@ -96,58 +88,47 @@ impl Compiler<'_> {
         }
     }
 
+    /// The outer error is one of the worker or the pipe to it, the inner one is not about the
+    /// file at all.
     fn attempt(
         &self,
-        mut process: Process,
+        talk: &mut Talk<'_>,
         file: &[u8],
         wanted: Wanted,
         destination: &dyn Fn() -> io::Result<Destination>,
-    ) -> Result<Findings, Failed> {
-        process.set_deadline(COMPILE_TIME_MAX);
-        let mut begun = false;
-        match self.ask(&mut process, file, wanted, &mut begun) {
-            Ok((sandbox, examined)) => {
-                self.starter
-                    .check(sandbox)
-                    .map_err(Failed::Infrastructure)?;
-                match receive_code(&mut process, &examined, destination) {
-                    Ok(code) => Ok(Findings { examined, code }),
-                    Err(Broken::Pipe(error)) => Err(Failed::Worker {
-                        process,
-                        error,
-                        begun,
-                    }),
-                    Err(Broken::Destination(error)) => Err(Failed::Infrastructure(
-                        InfrastructureError::Store(error.to_string()),
-                    )),
-                }
+        begun: &mut bool,
+    ) -> io::Result<Result<Findings, InfrastructureError>> {
+        let (sandbox, examined) = self.ask(talk, file, wanted, begun)?;
+        if let Err(error) = self.starter.check(sandbox) {
+            return Ok(Err(error));
+        }
+        match receive_code(talk, &examined, destination) {
+            Ok(code) => Ok(Ok(Findings { examined, code })),
+            Err(Broken::Pipe(error)) => Err(error),
+            Err(Broken::Destination(error)) => {
+                Ok(Err(InfrastructureError::Store(error.to_string())))
             }
-            Err(error) => Err(Failed::Worker {
-                process,
-                error,
-                begun,
-            }),
         }
     }
 
     fn ask(
         &self,
-        process: &mut Process,
+        talk: &mut Talk<'_>,
         file: &[u8],
         wanted: Wanted,
         begun: &mut bool,
     ) -> io::Result<(SandboxStatus, Examined)> {
-        process.send(&CompileOrder {
+        talk.send(&CompileOrder {
             limits: *self.limits,
             length: u64::try_from(file.len()).unwrap_or(u64::MAX),
             compile: wanted.code,
             describe: wanted.description,
         })?;
-        process.writer().write_all(file)?;
-        process.flush()?;
-        let sandbox = process.greet()?;
+        talk.writer().write_all(file)?;
+        talk.flush()?;
+        let sandbox = talk.greet()?;
         *begun = true;
-        Ok((sandbox, process.receive()?))
+        Ok((sandbox, talk.receive()?))
     }
 }
 
@@ -159,7 +140,7 @@ enum Broken {
 
 /// The code that the worker announced, if any.
 fn receive_code(
-    process: &mut Process,
+    talk: &mut Talk<'_>,
     examined: &Examined,
     destination: &dyn Fn() -> io::Result<Destination>,
 ) -> Result<Option<CompiledCode>, Broken> {
@@ -173,13 +154,13 @@ fn receive_code(
     let mut to = destination().map_err(Broken::Destination)?;
     let mut left = *length;
     while left > 0 {
-        let chunk = process.reader().fill_buf().map_err(Broken::Pipe)?;
+        let chunk = talk.reader().fill_buf().map_err(Broken::Pipe)?;
         if chunk.is_empty() {
             return Err(Broken::Pipe(io::ErrorKind::UnexpectedEof.into()));
         }
         let taken = chunk.len().min(usize::try_from(left).unwrap_or(usize::MAX));
         to.write(&chunk[..taken]).map_err(Broken::Destination)?;
-        process.reader().consume(taken);
+        talk.reader().consume(taken);
         left -= taken as u64;
     }
     let code = to.finish(digest).map_err(Broken::Destination)?;
@@ -189,7 +170,7 @@ fn receive_code(
 
 /// The rejection of a file that its compile worker did not survive.
 fn rejection(exit: &WorkerExit) -> Rejection {
-    Rejection::Uncompilable(if exit.expired {
+    Rejection::Uncompilable(if exit.killed.is_some() {
         format!("takes more than {} s", COMPILE_TIME_MAX.as_secs())
     } else if exit.is_out_of_processor_time() {
         format!("takes more than {COMPILE_CPU_SECONDS} s of processor time")

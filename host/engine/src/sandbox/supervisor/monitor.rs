@@ -2,27 +2,27 @@
 //!
 //! Workers die with the thread that started them, so that thread has to live as long
 //! as the supervisor; threads that play matches come and go.
+//!
+//! What a worker may take is measured here and not believed: processor time comes from the
+//! operating system.
 
 use std::io;
 use std::process::{Child, Command};
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError, Sender, SyncSender};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, Weak};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// How often deadlines are checked: a worker is killed at most this late.
+use crate::time::{Account, CancelFlag};
+
+/// How often workers are checked: one is killed at most this late.
 const CHECK_INTERVAL: Duration = Duration::from_millis(100);
 
-/// No deadline.
-const NEVER: u64 = u64::MAX;
-
-/// Starts workers and watches their deadlines.
+/// Starts workers and watches them.
 pub(super) struct Monitor {
     /// `None` only while it is dropped.
     orders: Option<Sender<Order>>,
     thread: Option<JoinHandle<()>>,
-    began: Instant,
 }
 
 struct Order {
@@ -32,18 +32,64 @@ struct Order {
     watched: mpsc::Receiver<Weak<Watched>>,
 }
 
-/// A running process with a deadline.
+/// What a worker may take in one exchange.
+#[derive(Clone)]
+pub(super) struct Limit {
+    /// Time on the wall clock, for the exchange or for each of its matches.
+    pub(super) wall: Duration,
+    /// For matches: the processor time of each, and the account of the robot.
+    pub(super) matches: Option<(Duration, Arc<Account>)>,
+}
+
+impl Limit {
+    /// A limit on the wall clock alone.
+    pub(super) const fn wall(wall: Duration) -> Self {
+        Self {
+            wall,
+            matches: None,
+        }
+    }
+}
+
+/// Why the supervisor killed a worker.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kill {
+    /// It took too long on the wall clock.
+    Deadline,
+    /// A match took too much processor time.
+    Slow,
+    /// The robot's account is spent.
+    Withdrawn,
+    /// Everything was cancelled.
+    Cancelled,
+}
+
+/// A running process.
 pub(super) struct Watched {
     child: Mutex<Child>,
-    /// Milliseconds since the monitor began, or [`NEVER`].
-    deadline: AtomicU64,
-    expired: AtomicBool,
-    began: Instant,
+    clock: ProcessClock,
+    state: Mutex<State>,
+}
+
+#[derive(Default)]
+struct State {
+    exchange: Option<Exchange>,
+    killed: Option<Kill>,
+}
+
+/// An exchange in progress.
+struct Exchange {
+    limit: Limit,
+    deadline: Instant,
+    /// The process's time when the exchange or its current match began.
+    began: Duration,
+    /// The process's time when the account was charged last.
+    charged: Duration,
 }
 
 impl Monitor {
     /// Starts the thread.
-    pub(super) fn start() -> io::Result<Self> {
+    pub(super) fn start(cancel: CancelFlag) -> io::Result<Self> {
         let (orders, receive) = mpsc::channel::<Order>();
         let thread = thread::Builder::new()
             .name("worker-monitor".into())
@@ -60,7 +106,7 @@ impl Monitor {
                     }
                     all.retain(|watched| match watched.upgrade() {
                         Some(watched) => {
-                            watched.kill_if_expired();
+                            watched.check(&cancel);
                             true
                         }
                         None => false,
@@ -70,7 +116,6 @@ impl Monitor {
         Ok(Self {
             orders: Some(orders),
             thread: Some(thread),
-            began: Instant::now(),
         })
     }
 
@@ -94,10 +139,9 @@ impl Monitor {
         let mut child = answered.recv().map_err(|_| gone())??;
         let taken = take(&mut child);
         let process = Arc::new(Watched {
+            clock: ProcessClock::of(&child),
             child: Mutex::new(child),
-            deadline: AtomicU64::new(NEVER),
-            expired: AtomicBool::new(false),
-            began: self.began,
+            state: Mutex::new(State::default()),
         });
         // The monitor waits for it.
         let _ = watch.send(Arc::downgrade(&process));
@@ -116,36 +160,164 @@ impl Drop for Monitor {
 }
 
 impl Watched {
-    /// Kills the process after `time`, unless the deadline is moved or cleared before.
-    pub(super) fn set_deadline(&self, time: Duration) {
-        let deadline = self.began.elapsed().saturating_add(time).as_millis();
-        let deadline = u64::try_from(deadline).unwrap_or(NEVER);
-        self.deadline.store(deadline, Ordering::Relaxed);
+    /// From now on, the process may take what the limit says.
+    pub(super) fn begin(&self, limit: Limit) {
+        if limit.matches.is_some() {
+            self.clock.look_inside();
+        }
+        let now = self.clock.time();
+        let mut state = self.state();
+        state.exchange = Some(Exchange {
+            deadline: Instant::now() + limit.wall,
+            limit,
+            began: now,
+            charged: now,
+        });
+        // It was killed when it had just finished something: that was not this robot's doing.
+        state.killed = None;
     }
 
-    /// Lets the process wait for as long as it takes.
-    pub(super) fn clear_deadline(&self) {
-        self.deadline.store(NEVER, Ordering::Relaxed);
+    /// The next match of the exchange begins; returns the processor time of the last one.
+    pub(super) fn next_match(&self) -> Duration {
+        let now = self.clock.time();
+        let mut state = self.state();
+        let Some(exchange) = &mut state.exchange else {
+            return Duration::ZERO;
+        };
+        exchange.charge(now);
+        exchange.deadline = Instant::now() + exchange.limit.wall;
+        now.saturating_sub(std::mem::replace(&mut exchange.began, now))
     }
 
-    /// Whether it was killed because it missed its deadline.
-    pub(super) fn expired(&self) -> bool {
-        self.expired.load(Ordering::Relaxed)
+    /// The exchange is over, and the process may wait for as long as it takes.
+    pub(super) fn end(&self) {
+        let now = self.clock.time();
+        if let Some(mut exchange) = self.state().exchange.take() {
+            exchange.charge(now);
+        }
     }
 
-    /// The process.
+    /// Why the supervisor killed it, if it did.
+    pub(super) fn killed(&self) -> Option<Kill> {
+        self.state().killed
+    }
+
+    /// The process. Not to be held during an exchange.
     pub(super) fn child(&self) -> MutexGuard<'_, Child> {
-        // Nothing that holds the lock panics half-way.
-        self.child.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.child)
     }
 
-    fn kill_if_expired(&self) {
-        let now = u64::try_from(self.began.elapsed().as_millis()).unwrap_or(NEVER);
-        if now >= self.deadline.load(Ordering::Relaxed) {
-            self.clear_deadline();
-            self.expired.store(true, Ordering::Relaxed);
+    fn check(&self, cancel: &CancelFlag) {
+        let mut state = self.state();
+        let Some(exchange) = &mut state.exchange else {
+            return;
+        };
+        let now = self.clock.time();
+        exchange.charge(now);
+        let kill = if cancel.is_set() {
+            Some(Kill::Cancelled)
+        } else {
+            exchange.excess(now)
+        };
+        if let Some(kill) = kill {
+            state.exchange = None;
+            state.killed = Some(kill);
             // It may have ended by itself meanwhile.
             let _ = self.child().kill();
         }
     }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        lock(&self.state)
+    }
+}
+
+impl Exchange {
+    fn charge(&mut self, now: Duration) {
+        if let Some((_, account)) = &self.limit.matches {
+            account.charge(now.saturating_sub(self.charged));
+            self.charged = now;
+        }
+    }
+
+    fn excess(&self, now: Duration) -> Option<Kill> {
+        if Instant::now() >= self.deadline {
+            return Some(Kill::Deadline);
+        }
+        let (match_time, account) = self.limit.matches.as_ref()?;
+        if now.saturating_sub(self.began) >= *match_time {
+            Some(Kill::Slow)
+        } else {
+            account.withdrawal().map(|_| Kill::Withdrawn)
+        }
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    // Nothing that holds a lock panics half-way.
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Measures the processor time of a worker.
+#[cfg(target_os = "linux")]
+struct ProcessClock {
+    process: u32,
+    outside: Option<libc::clockid_t>,
+    /// With namespaces, the code of the worker is in a child of the process that was started.
+    inside: OnceLock<Option<libc::clockid_t>>,
+}
+
+#[cfg(target_os = "linux")]
+impl ProcessClock {
+    fn of(child: &Child) -> Self {
+        Self {
+            process: child.id(),
+            outside: clock_of(child.id()),
+            inside: OnceLock::new(),
+        }
+    }
+
+    /// The worker has greeted, so it has all the processes that it will have.
+    fn look_inside(&self) {
+        self.inside.get_or_init(|| {
+            let process = self.process;
+            let children = format!("/proc/{process}/task/{process}/children");
+            let children = std::fs::read_to_string(children).ok()?;
+            clock_of(children.split_whitespace().next()?.parse().ok()?)
+        });
+    }
+
+    /// The time of all its threads by now. A process is not reaped while it is watched, or ends
+    /// with the one that is, so its number means no other one.
+    fn time(&self) -> Duration {
+        let inside = self.inside.get().copied().flatten();
+        let time = inside.or(self.outside).and_then(crate::time::clock_time);
+        time.unwrap_or_default()
+    }
+}
+
+#[cfg(target_os = "linux")]
+fn clock_of(process: u32) -> Option<libc::clockid_t> {
+    let process = libc::pid_t::try_from(process).ok()?;
+    let mut clock = 0;
+    // SAFETY: the call writes to `clock` and to nothing else.
+    let result = unsafe { libc::clock_getcpuclockid(process, &raw mut clock) };
+    (result == 0).then_some(clock)
+}
+
+/// Elsewhere, time on the wall clock, which is more.
+#[cfg(not(target_os = "linux"))]
+struct ProcessClock(Instant);
+
+#[cfg(not(target_os = "linux"))]
+impl ProcessClock {
+    fn of(_: &Child) -> Self {
+        Self(Instant::now())
+    }
+
+    fn time(&self) -> Duration {
+        self.0.elapsed()
+    }
+
+    fn look_inside(&self) {}
 }

@@ -2,7 +2,8 @@
 //!
 //! Nothing that happens to a worker changes a result. A match whose worker ends is played
 //! again alone in a fresh one; only a robot that crashes that one too is blamed. A worker that
-//! was killed from outside is never the robot's fault.
+//! was killed from outside is never the robot's fault. A match that takes too long is not played
+//! again here: whoever asked for it decides when.
 
 use std::io;
 use std::ops::ControlFlow;
@@ -14,6 +15,7 @@ use wasmouse_core::record::{FuelUse, MatchRecord, MatchSpec, replay};
 use super::super::protocol::Loaded;
 use super::super::role::Role;
 use super::check::check;
+use super::monitor::Kill;
 use super::pool::{Pool, RunWorker};
 use super::process::WorkerExit;
 use super::robot::SandboxedRobot;
@@ -51,9 +53,12 @@ impl Pool {
         spec: &MatchSpec,
         recording: &mut Recording,
     ) -> Result<MatchRecord, InfrastructureError> {
+        robot.account.check()?;
         let worker = self.take(&robot.digest)?;
         match self.play_one(worker, robot, (spec, true), recording) {
             Ok(Ok(record)) => Ok(record),
+            Ok(Err(error)) if error.is_final() => Err(error),
+            Err(exit) if exit.killed.is_some() => Err(self.given_up(&exit, robot)),
             Ok(Err(_)) | Err(_) => self.play_alone(robot, (spec, true), recording),
         }
     }
@@ -67,8 +72,17 @@ impl Pool {
     ) -> ControlFlow<()> {
         let mut left = specs;
         while !left.is_empty() {
-            let worker = match self.take(&robot.digest) {
+            let worker = match robot
+                .account
+                .check()
+                .and_then(|()| self.take(&robot.digest))
+            {
                 Ok(worker) => worker,
+                Err(InfrastructureError::Cancelled) => return ControlFlow::Break(()),
+                Err(InfrastructureError::Withdrawn(reason)) => {
+                    let error = || InfrastructureError::Withdrawn(reason);
+                    return left.iter().try_for_each(|_| sink(Err(error()), recording));
+                }
                 Err(error) => {
                     let reason = error.to_string();
                     return left
@@ -78,34 +92,70 @@ impl Pool {
             };
             let mut done = 0;
             let mut flow = ControlFlow::Continue(());
-            let mut failed = false;
+            let mut given_up = None;
             let ended = self.try_batch(
                 worker,
                 robot,
                 (left, false),
                 recording,
-                &mut |record, recording| {
-                    // A match that the worker itself gave up on is played again too.
-                    if record.is_err() {
-                        failed = true;
-                        return ControlFlow::Break(());
+                &mut |record, recording| match record {
+                    Ok(record) => {
+                        done += 1;
+                        flow = sink(Ok(record), recording);
+                        flow
                     }
-                    done += 1;
-                    flow = sink(record, recording);
-                    flow
+                    // A match that the worker itself gave up on.
+                    Err(error) => {
+                        given_up = Some(error);
+                        ControlFlow::Break(())
+                    }
                 },
             );
             flow?;
             left = left.get(done..).unwrap_or_default();
-            if (failed || ended.is_err())
-                && let Some((first, rest)) = left.split_first()
-            {
-                let record = self.play_alone(robot, (first, false), recording);
-                sink(record, recording)?;
-                left = rest;
+            let Some((first, rest)) = left.split_first() else {
+                break;
+            };
+            let played = match (given_up, ended) {
+                (Some(error), _) if error.is_final() => Err(error),
+                // Reports wait for each other, so perhaps not the first match took so long.
+                (_, Err(exit)) if is_slow(&exit) && !rest.is_empty() => {
+                    self.play_alone(robot, (first, false), recording)
+                }
+                (_, Err(exit)) if exit.killed.is_some() => Err(self.given_up(&exit, robot)),
+                (None, Ok(())) => continue,
+                _ => self.play_alone(robot, (first, false), recording),
+            };
+            if matches!(played, Err(InfrastructureError::Cancelled)) {
+                return ControlFlow::Break(());
             }
+            sink(played, recording)?;
+            left = rest;
         }
         ControlFlow::Continue(())
+    }
+
+    /// Why a match has no result whose worker the supervisor killed.
+    fn given_up(&self, exit: &WorkerExit, robot: &SandboxedRobot) -> InfrastructureError {
+        let workers = &self.starter.workers;
+        let error = match exit.killed {
+            Some(Kill::Cancelled) => InfrastructureError::Cancelled,
+            Some(Kill::Withdrawn) => match robot.account.check() {
+                Err(error) => error,
+                Ok(()) => run_failed(exit.to_string()),
+            },
+            Some(Kill::Slow) => InfrastructureError::Slow {
+                seconds: workers.control.match_time.as_secs(),
+            },
+            Some(Kill::Deadline) => InfrastructureError::Stalled {
+                seconds: workers.patience.as_secs(),
+            },
+            None => run_failed(exit.to_string()),
+        };
+        if error.is_stall() {
+            robot.account.count_stall();
+        }
+        error
     }
 
     /// Plays one match in workers that have run nothing else, and blames the robot when it
@@ -123,10 +173,8 @@ impl Pool {
                 Ok(record) => return record,
                 Err(exit) => exit,
             };
-            if exit.expired {
-                return Err(InfrastructureError::Stalled {
-                    seconds: self.starter.workers.patience.as_secs(),
-                });
+            if exit.killed.is_some() {
+                return Err(self.given_up(&exit, robot));
             }
             if exit.is_crash() {
                 return Ok(crashed(&exit, spec, recording));
@@ -172,12 +220,17 @@ impl Pool {
         let mut played = specs.iter();
         let mut stopped = false;
         let outcome = worker.load(&robot.digest, &robot.code).and_then(|loaded| {
-            if let Some(Loaded::Rejected(_) | Loaded::Damaged) = loaded {
+            if !matches!(loaded, None | Some(Loaded::Ready(_))) {
                 return Err(io::Error::other("an admitted robot cannot be loaded"));
             }
-            worker.run(&robot.digest, specs, details, &mut |report| {
+            worker.run(robot, specs, details, &mut |report| {
                 let spec = played.next().ok_or(io::ErrorKind::InvalidData)?;
                 let record = check(report, spec, recording).map_err(io::Error::other)?;
+                match &record {
+                    Ok(_) => robot.account.count_match(),
+                    Err(error) if error.is_stall() => robot.account.count_stall(),
+                    Err(_) => {}
+                }
                 stopped = sink(record, recording).is_break();
                 if stopped {
                     return Err(io::ErrorKind::Interrupted.into());
@@ -194,6 +247,11 @@ impl Pool {
             Err(error) => Err(worker.reap(&error)),
         }
     }
+}
+
+/// Whether a worker was killed because of one match.
+fn is_slow(exit: &WorkerExit) -> bool {
+    matches!(exit.killed, Some(Kill::Slow | Kill::Deadline))
 }
 
 /// The record of a match that crashes its worker each time.

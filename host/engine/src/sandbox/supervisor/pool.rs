@@ -9,9 +9,13 @@ use wasmouse_core::Digest;
 use wasmouse_core::game::Ruleset;
 use wasmouse_core::record::MatchSpec;
 
-use super::super::protocol::{Loaded, MatchOrder, MatchReport, Request, RunBatch, Setup};
+use super::super::protocol::{
+    Loaded, MatchOrder, MatchReport, Request, RunBatch, RunFailure, Setup,
+};
 use super::super::role::{Role, SandboxStatus};
-use super::process::{Process, Starter, WorkerExit};
+use super::monitor::{Kill, Limit};
+use super::process::{Process, START_TIME_MAX, Starter, Talk, WorkerExit};
+use super::robot::SandboxedRobot;
 use crate::error::InfrastructureError;
 use crate::limits::Limits;
 use crate::runtime::CompiledCode;
@@ -28,6 +32,10 @@ const LOAD_TIME_MAX: Duration = Duration::from_secs(60);
 
 /// How often a worker is started again that is killed before it has sent anything.
 const STARTS_MAX: u32 = 4;
+
+/// How much longer than it should a match may take in a worker before that is killed: its own
+/// clock comes first, so that a slow robot does not cost a worker.
+const GRACE: Duration = Duration::from_secs(1);
 
 /// Starts run workers and keeps the idle ones.
 pub(super) struct Pool {
@@ -78,6 +86,9 @@ impl Pool {
             starts += 1;
             match self.try_start()? {
                 Ok(worker) => return Ok(worker),
+                Err(exit) if exit.killed == Some(Kill::Cancelled) => {
+                    return Err(InfrastructureError::Cancelled);
+                }
                 Err(exit) if exit.is_kill() && starts < STARTS_MAX => {}
                 Err(exit) => {
                     return Err(InfrastructureError::Worker {
@@ -94,19 +105,21 @@ impl Pool {
         let setup = Setup {
             rules: Ruleset::clone(&self.rules),
             limits: self.limits,
+            match_time: self.starter.workers.control.match_time,
         };
-        let greeted = process
-            .send(&setup)
-            .and_then(|()| process.flush())
-            .and_then(|()| process.greet());
+        let greeted = process.exchange(Limit::wall(START_TIME_MAX), |talk| {
+            talk.send(&setup)?;
+            talk.flush()?;
+            talk.greet()
+        });
         match greeted {
             Ok(sandbox) => {
                 self.starter.check(sandbox)?;
-                process.clear_deadline();
                 Ok(Ok(RunWorker {
                     process,
                     sandbox,
                     patience: self.starter.workers.patience,
+                    match_time: self.starter.workers.control.match_time,
                     robots: Slots::new(ROBOT_SLOTS),
                     mazes: Slots::new(MAZE_SLOTS),
                 }))
@@ -126,6 +139,7 @@ pub(super) struct RunWorker {
     process: Process,
     pub(super) sandbox: SandboxStatus,
     patience: Duration,
+    match_time: Duration,
     robots: Slots,
     mazes: Slots,
 }
@@ -141,17 +155,17 @@ impl RunWorker {
             return Ok(None);
         }
         let slot = self.robots.free_next();
-        self.process.set_deadline(LOAD_TIME_MAX);
-        self.process.send(&Request::Robot {
-            slot,
-            length: code.length,
-            code: code.digest,
-            robot: *robot,
+        let loaded = self.process.exchange(Limit::wall(LOAD_TIME_MAX), |talk| {
+            talk.send(&Request::Robot {
+                slot,
+                length: code.length,
+                code: code.digest,
+                robot: *robot,
+            })?;
+            code.send(talk.writer())?;
+            talk.flush()?;
+            talk.receive()
         })?;
-        code.send(self.process.writer())?;
-        self.process.flush()?;
-        let loaded = self.process.receive()?;
-        self.process.clear_deadline();
         if matches!(loaded, Loaded::Ready(_)) {
             self.robots.fill(slot, *robot);
         }
@@ -162,57 +176,67 @@ impl RunWorker {
     /// order.
     pub(super) fn run(
         &mut self,
-        robot: &Digest,
+        robot: &SandboxedRobot,
         specs: &[MatchSpec],
         details: bool,
         sink: &mut dyn FnMut(MatchReport) -> io::Result<()>,
     ) -> io::Result<()> {
         let missing = || io::Error::other("the robot is not loaded");
-        let robot = self.robots.find(robot).ok_or_else(missing)?;
-        let mut matches = Vec::with_capacity(specs.len());
-        for spec in specs {
-            matches.push(MatchOrder {
-                maze: self.maze(spec)?,
-                seed: spec.key.seed,
-                variant: spec.key.variant,
-            });
-        }
-        self.process.send(&Request::Run(RunBatch {
-            robot,
-            details,
-            matches,
-        }))?;
-        self.process.set_deadline(self.patience);
-        self.process.flush()?;
-        for _ in specs {
-            let report = self.process.receive()?;
-            // For the next match; reports arrive in groups.
-            self.process.set_deadline(self.patience);
-            sink(report)?;
-        }
-        self.process.clear_deadline();
-        Ok(())
-    }
-
-    /// The slot of the match's maze, which is sent when it is new.
-    fn maze(&mut self, spec: &MatchSpec) -> io::Result<u16> {
-        let digest = &spec.key.maze;
-        if let Some(slot) = self.mazes.find(digest) {
-            return Ok(slot);
-        }
-        let slot = self.mazes.free_next();
-        self.process.send(&Request::Maze {
-            slot,
-            bytes: spec.maze.identity_bytes(),
-        })?;
-        self.mazes.fill(slot, *digest);
-        Ok(slot)
+        let slot = self.robots.find(&robot.digest).ok_or_else(missing)?;
+        let limit = Limit {
+            wall: self.patience,
+            matches: Some((self.match_time + GRACE, Arc::clone(&robot.account))),
+        };
+        let (mazes, match_time) = (&mut self.mazes, self.match_time);
+        self.process.exchange(limit, |talk| {
+            let mut matches = Vec::with_capacity(specs.len());
+            for spec in specs {
+                matches.push(MatchOrder {
+                    maze: maze_slot(mazes, talk, spec)?,
+                    seed: spec.key.seed,
+                    variant: spec.key.variant,
+                });
+            }
+            talk.send(&Request::Run(RunBatch {
+                robot: slot,
+                details,
+                matches,
+            }))?;
+            talk.flush()?;
+            // Reports arrive in groups, so only their sum can be measured.
+            let mut took = Duration::ZERO;
+            for _ in specs {
+                let report: MatchReport = talk.receive()?;
+                took += talk.next_match();
+                if matches!(report.transcript, Err(RunFailure::Slow { .. })) {
+                    let too_fast = || io::Error::other("protocol violation: no match was so slow");
+                    took = took.checked_sub(match_time / 2).ok_or_else(too_fast)?;
+                }
+                sink(report)?;
+            }
+            Ok(())
+        })
     }
 
     /// Kills and reaps it after `error`, and returns its exit status.
     pub(super) fn reap(self, error: &io::Error) -> WorkerExit {
         self.process.reap(error)
     }
+}
+
+/// The slot of the match's maze, which is sent when it is new.
+fn maze_slot(mazes: &mut Slots, talk: &mut Talk<'_>, spec: &MatchSpec) -> io::Result<u16> {
+    let digest = &spec.key.maze;
+    if let Some(slot) = mazes.find(digest) {
+        return Ok(slot);
+    }
+    let slot = mazes.free_next();
+    talk.send(&Request::Maze {
+        slot,
+        bytes: spec.maze.identity_bytes(),
+    })?;
+    mazes.fill(slot, *digest);
+    Ok(slot)
 }
 
 /// What a worker keeps, by slot; the slot that was filled first is used again first.

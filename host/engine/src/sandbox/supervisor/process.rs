@@ -15,25 +15,27 @@ use serde::de::DeserializeOwned;
 use super::super::protocol::{self, Hello};
 use super::super::role::{Role, SandboxStatus};
 use super::group::{Group, Groups};
-use super::monitor::{Monitor, Watched};
+use super::monitor::{Kill, Limit, Monitor, Watched};
 use crate::error::InfrastructureError;
-use crate::runtime::MATCH_SECONDS_MAX;
+use crate::time::{Control, MATCH_TIME_MAX};
 
 /// How workers are run.
 #[derive(Clone, Debug)]
 pub struct WorkerOptions {
     /// The program that they are started from.
     pub executable: Executable,
-    /// How long a match may take on the wall clock. It says nothing about the robot: fuel
-    /// ends matches, and this ends a worker that stalls.
+    /// How long a match may take on the wall clock. It says nothing about the robot: its
+    /// processor time is limited too, and this ends a worker that stalls.
     pub patience: Duration,
     /// Fail where the operating system cannot sandbox them completely.
     pub require_sandbox: bool,
+    /// What ends matches besides fuel and rules.
+    pub control: Control,
 }
 
-/// How long a match may take on the wall clock before its worker is killed, by default: somewhat
-/// longer than the worker's own clock would let it.
-pub const PATIENCE: Duration = Duration::from_secs(MATCH_SECONDS_MAX + 30);
+/// How long a match may take on the wall clock before its worker is killed, by default: the
+/// processor time of a match on a machine that is five times as busy as it should be.
+pub const PATIENCE: Duration = Duration::from_secs(5 * MATCH_TIME_MAX.as_secs());
 
 /// Starts workers.
 pub(super) struct Starter {
@@ -60,7 +62,7 @@ impl Starter {
 }
 
 /// How long a worker may take to start.
-const START_TIME_MAX: Duration = Duration::from_secs(30);
+pub(super) const START_TIME_MAX: Duration = Duration::from_secs(30);
 
 /// How much of a worker's standard error is kept, in bytes.
 const STDERR_BYTES_MAX: u64 = 4 << 10;
@@ -107,7 +109,8 @@ impl Executable {
     }
 }
 
-/// A worker with its pipes. Dropping it kills it.
+/// A worker with its pipes, which only an [exchange](Process::exchange) can use: whatever is
+/// written or read has a deadline. Dropping it kills it.
 pub(super) struct Process {
     watched: Arc<Watched>,
     to: BufWriter<ChildStdin>,
@@ -122,8 +125,8 @@ pub(super) struct Process {
 pub(super) struct WorkerExit {
     /// How the process ended; `None` when it had to be killed.
     pub(super) status: Option<ExitStatus>,
-    /// Whether it was killed because it took too long.
-    pub(super) expired: bool,
+    /// Why the supervisor killed it, if it did.
+    pub(super) killed: Option<Kill>,
     /// What went wrong on the supervisor's side of the pipe.
     pub(super) error: String,
     /// The end of what it wrote to standard error.
@@ -133,6 +136,9 @@ pub(super) struct WorkerExit {
 impl Process {
     /// Starts a worker.
     pub(super) fn start(starter: &Starter, role: Role) -> Result<Self, InfrastructureError> {
+        if starter.workers.control.cancel.is_set() {
+            return Err(InfrastructureError::Cancelled);
+        }
         let take =
             |child: &mut Child| (child.stdin.take(), child.stdout.take(), child.stderr.take());
         let command = starter.workers.executable.command(role);
@@ -145,7 +151,6 @@ impl Process {
         let (Some(stdin), Some(stdout), Some(stderr)) = pipes else {
             return Err(failed("it has no pipes".into()));
         };
-        watched.set_deadline(START_TIME_MAX);
         // It waits to be told what to do, so it has used nothing and started nothing by now.
         let pid = watched.child().id();
         let groups = starter.groups.as_ref();
@@ -160,19 +165,69 @@ impl Process {
         })
     }
 
-    /// Kills it after `time`, unless the deadline is moved or cleared before.
-    pub(super) fn set_deadline(&self, time: Duration) {
-        self.watched.set_deadline(time);
+    /// Writes to the worker and reads from it. It is killed when it takes more than the limit,
+    /// and the pipes then break.
+    pub(super) fn exchange<T>(
+        &mut self,
+        limit: Limit,
+        talk: impl FnOnce(&mut Talk<'_>) -> io::Result<T>,
+    ) -> io::Result<T> {
+        self.watched.begin(limit);
+        let talked = talk(&mut Talk {
+            to: &mut self.to,
+            from: &mut self.from,
+            watched: &self.watched,
+            has_group: self.group.is_some(),
+        });
+        self.watched.end();
+        talked
     }
 
-    /// Lets it wait for as long as it takes.
-    pub(super) fn clear_deadline(&self) {
-        self.watched.clear_deadline();
+    /// Kills and reaps it after `error`, and returns its exit status.
+    pub(super) fn reap(mut self, error: &io::Error) -> WorkerExit {
+        let broken = matches!(
+            error.kind(),
+            io::ErrorKind::UnexpectedEof | io::ErrorKind::BrokenPipe
+        );
+        let killed = self.watched.killed();
+        let mut child = self.watched.child();
+        // A broken pipe means that it is ending by itself, and how it does says why.
+        let status = if broken && killed.is_none() {
+            ended(&mut child)
+        } else {
+            None
+        };
+        kill(&mut child);
+        drop(child);
+        let mut stderr = Vec::new();
+        // All that is left is its last stderr; the writing end is closed.
+        let _ = (&mut self.stderr)
+            .take(STDERR_BYTES_MAX)
+            .read_to_end(&mut stderr);
+        if self.group.as_ref().is_some_and(Group::is_out_of_memory) {
+            stderr.extend_from_slice(b"\nits control group ran out of memory");
+        }
+        WorkerExit {
+            status,
+            killed,
+            error: error.to_string(),
+            stderr: plain(&String::from_utf8_lossy(&stderr)),
+        }
     }
+}
 
+/// The pipes of a worker during an exchange.
+pub(super) struct Talk<'a> {
+    to: &'a mut BufWriter<ChildStdin>,
+    from: &'a mut BufReader<ChildStdout>,
+    watched: &'a Watched,
+    has_group: bool,
+}
+
+impl Talk<'_> {
     /// Sends a frame, perhaps later.
     pub(super) fn send(&mut self, value: &impl Serialize) -> io::Result<()> {
-        protocol::write(&mut self.to, value)
+        protocol::write(self.to, value)
     }
 
     /// Sends everything that waits.
@@ -182,17 +237,17 @@ impl Process {
 
     /// Where large bytes are written to.
     pub(super) const fn writer(&mut self) -> &mut BufWriter<ChildStdin> {
-        &mut self.to
+        self.to
     }
 
     /// Where large bytes are read from.
     pub(super) const fn reader(&mut self) -> &mut BufReader<ChildStdout> {
-        &mut self.from
+        self.from
     }
 
     /// Waits for a frame.
     pub(super) fn receive<T: DeserializeOwned>(&mut self) -> io::Result<T> {
-        protocol::expect(&mut self.from)
+        protocol::expect(self.from)
     }
 
     /// Waits for the first frame and checks that the worker is the same build.
@@ -201,7 +256,7 @@ impl Process {
         let build = protocol::build();
         if hello.build == build {
             Ok(SandboxStatus {
-                control_group: self.group.is_some(),
+                control_group: self.has_group,
                 ..hello.sandbox
             })
         } else {
@@ -212,37 +267,10 @@ impl Process {
         }
     }
 
-    /// Kills and reaps it after `error`, and returns its exit status.
-    pub(super) fn reap(mut self, error: &io::Error) -> WorkerExit {
-        let broken = matches!(
-            error.kind(),
-            io::ErrorKind::UnexpectedEof | io::ErrorKind::BrokenPipe
-        );
-        let mut child = self.watched.child();
-        // A broken pipe means that it is ending by itself, and how it does says why.
-        let status = if broken && !self.watched.expired() {
-            ended(&mut child)
-        } else {
-            None
-        };
-        // Without effect on one that has ended.
-        let _ = child.kill();
-        let _ = child.wait();
-        drop(child);
-        let mut stderr = Vec::new();
-        // All that is left are its last stderr; the writing end is closed.
-        let _ = (&mut self.stderr)
-            .take(STDERR_BYTES_MAX)
-            .read_to_end(&mut stderr);
-        if self.group.as_ref().is_some_and(Group::is_out_of_memory) {
-            stderr.extend_from_slice(b"\nits control group ran out of memory");
-        }
-        WorkerExit {
-            status,
-            expired: self.watched.expired(),
-            error: error.to_string(),
-            stderr: plain(&String::from_utf8_lossy(&stderr)),
-        }
+    /// The next match of the exchange begins, with the whole limit; returns the processor time of
+    /// the last one.
+    pub(super) fn next_match(&self) -> Duration {
+        self.watched.next_match()
     }
 }
 
@@ -260,11 +288,21 @@ fn ended(child: &mut Child) -> Option<ExitStatus> {
 
 impl Drop for Process {
     fn drop(&mut self) {
-        let mut child = self.watched.child();
-        // It may have ended by itself; what matters is that nothing stays behind.
-        let _ = child.kill();
-        let _ = child.wait();
+        kill(&mut self.watched.child());
     }
+}
+
+/// Kills and reaps a process and what it may have started, which would keep the pipes open.
+fn kill(child: &mut Child) {
+    // It may have ended by itself; what matters is that nothing stays behind.
+    #[cfg(unix)]
+    {
+        use rustix::process::{Pid, Signal, kill_process_group};
+        // Its number names the group, also while only other members are left.
+        let _ = kill_process_group(Pid::from_child(child), Signal::KILL);
+    }
+    let _ = child.kill();
+    let _ = child.wait();
 }
 
 impl WorkerExit {
@@ -328,7 +366,7 @@ impl WorkerExit {
 
 impl fmt::Display for WorkerExit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.expired {
+        if self.killed.is_some() {
             write!(f, "timed out and was killed")?;
         } else if let Some(status) = self.status {
             write!(f, "{status}")?;

@@ -6,6 +6,7 @@ use wasmouse_core::Digest;
 
 use crate::admission::ResourceRequirements;
 use crate::runtime::{CacheUse, CompiledCode};
+use crate::time::Account;
 
 /// A robot that was admitted to run in workers. This process holds a file with its compiled
 /// code, and never loads it.
@@ -14,6 +15,7 @@ pub struct SandboxedRobot {
     pub(super) code: Arc<CompiledCode>,
     pub(super) cache: CacheUse,
     pub(super) requirements: Option<ResourceRequirements>,
+    pub(super) account: Arc<Account>,
 }
 
 impl SandboxedRobot {
@@ -30,5 +32,10 @@ impl SandboxedRobot {
     /// What it requires before it does anything.
     pub const fn requirements(&self) -> Option<ResourceRequirements> {
         self.requirements
+    }
+
+    /// The processor time that it has used.
+    pub const fn account(&self) -> &Arc<Account> {
+        &self.account
     }
 }
