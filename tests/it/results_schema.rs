@@ -8,8 +8,8 @@ use std::sync::atomic::AtomicBool;
 use jsonschema::Validator;
 use serde_json::Value;
 use wasmouse::contest::{
-    ContestInfo, Entrant, MazeSource, Options, Plan, RecordList, Results, Seeds, StandingsBuilder,
-    SummaryBuilder, Tee, run,
+    ContestInfo, Entrant, MazeSource, NotAdmitted, Options, Plan, RecordList, Results, Seeds,
+    StandingsBuilder, SummaryBuilder, Tee, run,
 };
 use wasmouse::report::results_json::{ResultsWriter, read_results, write_results};
 use wasmouse_core::Digest;
@@ -20,6 +20,7 @@ use wasmouse_engine::admission::{Inspection, Rejection};
 use wasmouse_engine::bundled;
 use wasmouse_engine::{
     AdmittedRobot, DetailedMatch, Executor, Frame, InProcess, InfrastructureError, Limits, Sink,
+    Withdrawal,
 };
 
 const SCHEMA: &str = include_str!("../../host/schema/results.schema.json");
@@ -27,13 +28,16 @@ const SCHEMA: &str = include_str!("../../host/schema/results.schema.json");
 /// The seed with which every match fails.
 const BROKEN_SEED: u64 = 2;
 
+/// The seed with which robots have been withdrawn.
+const WITHDRAWN_SEED: u64 = 3;
+
 fn validator() -> Validator {
     let schema: Value = serde_json::from_str(SCHEMA).expect("the schema is JSON");
     jsonschema::draft202012::meta::validate(&schema).expect("the schema is a schema");
     jsonschema::draft202012::new(&schema).expect("the schema can be used")
 }
 
-/// An executor that cannot play matches with [`BROKEN_SEED`].
+/// An executor that cannot play matches with [`BROKEN_SEED`] and [`WITHDRAWN_SEED`].
 struct Broken(InProcess);
 
 impl Executor for Broken {
@@ -54,6 +58,9 @@ impl Executor for Broken {
         self.0.execute(robot, batch, &mut |spec, played| {
             let played = match spec.key.seed {
                 BROKEN_SEED => Err(InfrastructureError::ForeignRobot),
+                WITHDRAWN_SEED => Err(InfrastructureError::Withdrawn(Withdrawal::Stalled {
+                    times: 2,
+                })),
                 _ => played,
             };
             sink(spec, played)
@@ -82,8 +89,8 @@ impl Executor for Broken {
 /// The results of a contest in an official maze and one without a way to the goal, with these
 /// seeds, and the document that was written while it was played.
 ///
-/// `flood` finishes in the first maze, `champion` exceeds the fuel limit of a step, and a file
-/// is rejected.
+/// `flood` finishes in the first maze, `champion` exceeds the fuel limit of a step, a file is
+/// rejected, and another one cannot be admitted.
 fn play(seeds: Seeds) -> (Results, Vec<u8>) {
     let mut rules = Ruleset::default();
     rules.sandbox.step_fuel_max = 100_000;
@@ -95,7 +102,7 @@ fn play(seeds: Seeds) -> (Results, Vec<u8>) {
         variant: 0,
         admission: match executor.admit(file).expect("the host works") {
             Ok(robot) => Ok(Arc::new(robot)),
-            Err(rejection) => Err(Arc::new(rejection)),
+            Err(rejection) => Err(NotAdmitted::Rejected(Arc::new(rejection))),
         },
     };
     let component = |name| bundled::find(name).expect("it is bundled").component;
@@ -111,6 +118,10 @@ fn play(seeds: Seeds) -> (Results, Vec<u8>) {
             entrant("flood", component("flood")),
             entrant("champion", component("champion")),
             entrant("rejected\u{1b}", b"no robot"),
+            Entrant {
+                admission: Err(NotAdmitted::Failed("no worker \u{1b}".to_owned())),
+                ..entrant("failed", b"perhaps a robot")
+            },
         ],
         mazes: vec![
             loaded(official.name, official_maze.maze),
@@ -136,6 +147,7 @@ fn play(seeds: Seeds) -> (Results, Vec<u8>) {
         cancelled: &AtomicBool::new(false),
         wanted: &|_| true,
         progress: &|| {},
+        robot_time: None,
     };
     run(&plan, &executor, &options, &mut sink).expect("a contest");
     let summary = summary.finish(&plan, standings.finish(&plan, &players));
@@ -161,7 +173,7 @@ fn check_valid(validator: &Validator, value: &Value) {
 #[test]
 fn contests_are_valid() {
     let validator = validator();
-    for (first, count, partial) in [(0, 1, false), (BROKEN_SEED - 1, 2, true)] {
+    for (first, count, partial) in [(0, 1, false), (BROKEN_SEED - 1, 3, true)] {
         let (results, document) = play(Seeds { first, count });
         let value = serde_json::from_slice(&document).expect("it is JSON");
         check_valid(&validator, &value);
@@ -174,7 +186,9 @@ fn contests_are_valid() {
             (partial, !partial)
         );
         assert_eq!(summary.failures.is_empty(), !partial);
+        assert_eq!(summary.withdrawn.len(), if partial { 2 } else { 0 });
         assert!(results.contest.robots[2].rejection.is_some());
+        assert!(results.contest.robots[3].failure.is_some());
         let verdicts: Vec<_> = results
             .matches
             .iter()
@@ -239,7 +253,7 @@ fn a_field_that_is_missing_or_added_is_invalid() {
     let validator = validator();
     let (results, _) = play(Seeds {
         first: BROKEN_SEED - 1,
-        count: 2,
+        count: 3,
     });
     let document = serde_json::to_value(&results).expect("it can be written");
     // The reader takes a missing field for null where null is a value of the field.
@@ -272,7 +286,7 @@ fn a_field_that_is_missing_or_added_is_invalid() {
         for name in fields.keys() {
             let mut fewer = fields.clone();
             fewer.remove(name);
-            let is_optional = name == "rejection";
+            let is_optional = ["rejection", "failure"].contains(&name.as_str());
             check(
                 &with(fewer),
                 is_optional,

@@ -210,7 +210,7 @@ fn changed_values_are_named() {
         check_change(folder.path(), &json, pointer, value, (code, message));
     };
     let match_0 = "`flood:reset` in `own`, seed 0: ";
-    check("/version", json!(3), 3, "version");
+    check("/version", json!(4), 3, "version");
     check(
         "/contest/engine",
         json!("wasmtime-3"),

@@ -47,7 +47,7 @@ impl Stage {
                 name: name.to_owned(),
                 digest: Digest::of(component),
                 variant,
-                admission: admission.map(Arc::new).map_err(Arc::new),
+                admission: Ok(Arc::new(admission.expect("a robot"))),
             }
         });
         let mazes = stage::generated(mazes).into_iter();
@@ -73,6 +73,7 @@ impl Stage {
             cancelled: &cancelled,
             wanted: &|_| true,
             progress: &|| (),
+            robot_time: None,
         };
         let mut count = Count(0);
         run(&self.plan, &*self.executor, &options, &mut count).expect("the host works");

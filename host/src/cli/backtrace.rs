@@ -19,7 +19,7 @@ use crate::report::escape::for_terminal;
 const ROBOTS_MAX: usize = 5;
 
 /// Prints to stderr where robots were in their code when they first failed. `specs` are those of
-/// the plan's entrants, in order. Backtraces are optional: one that cannot be made is skipped.
+/// the plan's entrants, in order. Backtraces are optional: one that cannot be made is reported.
 pub fn print(
     plan: &Plan,
     players: &[Player],
@@ -34,6 +34,9 @@ pub fn print(
     });
     for group in groups.take(ROBOTS_MAX) {
         let player = &players[group.player];
+        if player.robot.account().withdrawal().is_some() {
+            continue;
+        }
         let entrant = player.entrants[0];
         let bytes_max = executor.limits().admission.component_bytes_max;
         let (Ok(file), Some(maze)) = (specs[entrant].read(bytes_max), maze_of(plan, &group.first))
@@ -48,10 +51,14 @@ pub fn print(
         }
         let spec = plan.spec(plan.key_parts(), player, &maze, group.first.key.seed);
         let backtrace = executor.backtrace(&player.robot, &file, &spec, fault);
-        if let Ok(Some(frames)) = backtrace
-            && !frames.is_empty()
-        {
-            print_frames(&plan.entrants[entrant].name, &frames);
+        let name = &plan.entrants[entrant].name;
+        match backtrace {
+            Ok(Some(frames)) if !frames.is_empty() => print_frames(name, &frames),
+            Ok(_) => {}
+            Err(error) => {
+                let (name, error) = (for_terminal(name), for_terminal(&error.to_string()));
+                message!("warning: no backtrace of `{name}`: {error}");
+            }
         }
     }
 }

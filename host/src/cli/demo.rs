@@ -10,7 +10,7 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::mazes::{self, BadFiles, Legality};
 use super::output::{self, Draft, Existing};
-use super::play::play_all;
+use super::play::{Pace, play_all};
 use super::robots::{self, RobotSpec};
 use super::setup::SetupArgs;
 use super::verdict::{exit, print_faults};
@@ -75,7 +75,11 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         &mut best,
         &mut list,
     ]);
-    play_all(&plan, &executor, args.setup.jobs(), &mut sink)?;
+    let pace = Pace {
+        jobs: args.setup.jobs(),
+        robot_time: None,
+    };
+    play_all(&plan, &executor, pace, &mut sink)?;
     let results = Results {
         version: RESULTS_VERSION,
         contest: ContestInfo::new(&plan),

@@ -17,7 +17,8 @@ pub enum Exit {
     Input = 3,
     /// A robot was rejected or ended a match with a fault.
     Robot = 4,
-    /// An internal error: a full disk, a broken pipe to a worker, a bug.
+    /// An internal error: a full disk, a broken pipe to a worker, a bug. Also when some matches
+    /// could not be played, or a robot took too long.
     Internal = 5,
     /// Everything was played, and no robot finished any match.
     NoneFinished = 6,

@@ -6,7 +6,7 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
 use super::robots;
-use super::setup::{IsolationArgs, SetupArgs};
+use super::setup::{IsolationArgs, SetupArgs, TimeArgs};
 use crate::report::inspection::InspectionReport;
 
 const EXAMPLES: &str = "\
@@ -48,7 +48,9 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         let message = format!("`{}` has {} robots", args.robot, specs.len());
         return Err(Failure::usage(message).hint("name one of its files"));
     };
-    let executor = args.setup.executor_for_all(&args.isolation)?;
+    let executor = args
+        .setup
+        .executor_for_all(&args.isolation, &TimeArgs::default())?;
     let bytes = spec.read(executor.limits().admission.component_bytes_max)?;
     let inspection = executor
         .inspect(&bytes, spec.trust())

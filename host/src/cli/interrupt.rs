@@ -5,13 +5,15 @@
 //! print, asks the flag of [`listen`] now and then. While nobody does, there is
 //! nothing to lose, and Ctrl-C ends the process at once.
 
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{LazyLock, OnceLock};
+
+use wasmouse_engine::CancelFlag;
 
 use super::exit::Exit;
 use super::failure::Failure;
 
-static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+static INTERRUPTED: LazyLock<CancelFlag> = LazyLock::new(CancelFlag::default);
 
 /// Whether somebody asks [`INTERRUPTED`].
 static HEARD: AtomicBool = AtomicBool::new(false);
@@ -32,7 +34,7 @@ pub fn handle() {
 /// # Errors
 ///
 /// When the signal cannot be handled.
-pub fn listen() -> Result<&'static AtomicBool, Failure> {
+pub fn listen() -> Result<&'static CancelFlag, Failure> {
     HEARD.store(true, Ordering::Relaxed);
     match handled() {
         Ok(()) => Ok(&INTERRUPTED),
@@ -42,10 +44,21 @@ pub fn listen() -> Result<&'static AtomicBool, Failure> {
     }
 }
 
+/// The flag that Ctrl-C sets. It stays unset while nobody listens.
+pub fn flag() -> &'static CancelFlag {
+    &INTERRUPTED
+}
+
+/// Stops listening, because there is nothing left to lose: Ctrl-C ends the process at once.
+pub fn stop_listening() {
+    HEARD.store(false, Ordering::Relaxed);
+}
+
 fn handled() -> &'static Result<(), String> {
     HANDLING.get_or_init(|| {
         let handler = || {
-            let is_second = INTERRUPTED.swap(true, Ordering::Relaxed);
+            let is_second = INTERRUPTED.is_set();
+            INTERRUPTED.set();
             if is_second || !HEARD.load(Ordering::Relaxed) {
                 std::process::exit(i32::from(Exit::Interrupted as u8));
             }

@@ -1,7 +1,9 @@
 //! `--log`: what robots wrote to their journals, for the people who debug them.
 
+use std::collections::BTreeSet;
+
 use wasmouse_core::journal::{JournalCounts, Level, Note};
-use wasmouse_engine::Executor;
+use wasmouse_engine::{Executor, InfrastructureError};
 
 use super::again::play_again;
 use super::output::message;
@@ -12,14 +14,23 @@ use crate::report::escape::for_terminal;
 /// not influence each other, so a match that cannot be played again is only reported.
 pub fn print(plan: &Plan, players: &[Player], executor: &dyn Executor, results: &Results) {
     let has_journal = |journal: JournalCounts| journal != JournalCounts::default();
+    let mut withdrawn = BTreeSet::new();
     for record in results.matches.iter().filter(|it| has_journal(it.journal)) {
         let names = results.names();
         let robot = for_terminal(names.robot(&record.key));
         let maze = for_terminal(names.maze_name(&record.key));
         let seed = record.key.seed;
+        if withdrawn.contains(&record.key.robot) {
+            continue;
+        }
         let replayed = match play_again(plan, players, executor, record) {
             Ok(Some(replayed)) => replayed,
             Ok(None) => continue,
+            Err(InfrastructureError::Withdrawn(reason)) => {
+                message!("warning: no more logs of `{robot}`: {reason}");
+                withdrawn.insert(record.key.robot);
+                continue;
+            }
             Err(error) => {
                 message!("warning: no log of `{robot}` in `{maze}`, seed {seed}: {error}");
                 continue;

@@ -1,6 +1,6 @@
 //! Playing a plan with a progress bar, for every command that plays.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use wasmouse_core::record::MatchKey;
@@ -9,6 +9,15 @@ use wasmouse_engine::Executor;
 use super::failure::Failure;
 use super::interrupt;
 use crate::contest::{self, Options, Plan, RunError, Sink};
+
+/// How a plan is played.
+#[derive(Clone, Copy)]
+pub struct Pace {
+    /// Threads.
+    pub jobs: usize,
+    /// Processor time of each robot; `None` is the default.
+    pub robot_time: Option<Duration>,
+}
 
 /// Plays the matches of a plan that are wanted, `total` of them, with a progress bar on a
 /// terminal. Ctrl-C ends it early.
@@ -19,20 +28,21 @@ use crate::contest::{self, Options, Plan, RunError, Sink};
 pub fn play(
     plan: &Plan,
     executor: &dyn Executor,
-    jobs: usize,
+    pace: Pace,
     (wanted, total): (&(dyn Fn(&MatchKey) -> bool + Sync), u64),
     sink: &mut dyn Sink,
 ) -> Result<(), Failure> {
-    let cancelled: &AtomicBool = interrupt::listen()?;
+    let cancelled = interrupt::listen()?.as_atomic();
     let bar = ProgressBar::new(total).with_style(
         ProgressStyle::with_template("{bar:40} {pos}/{len} matches, {per_sec}, {eta} left")
             .expect("a constant template"),
     );
     let options = Options {
-        jobs,
+        jobs: pace.jobs,
         cancelled,
         wanted,
         progress: &|| bar.inc(1),
+        robot_time: pace.robot_time,
     };
     let played = contest::run(plan, executor, &options, sink);
     bar.finish_and_clear();
@@ -50,10 +60,10 @@ pub fn play(
 pub fn play_all(
     plan: &Plan,
     executor: &dyn Executor,
-    jobs: usize,
+    pace: Pace,
     sink: &mut dyn Sink,
 ) -> Result<(), Failure> {
-    play(plan, executor, jobs, (&|_| true, plan.matches()), sink)
+    play(plan, executor, pace, (&|_| true, plan.matches()), sink)
 }
 
 /// Whether Ctrl-C was pressed.
@@ -62,5 +72,5 @@ pub fn play_all(
 ///
 /// When the signal cannot be handled.
 pub fn is_interrupted() -> Result<bool, Failure> {
-    Ok(interrupt::listen()?.load(Ordering::Relaxed))
+    Ok(interrupt::listen()?.is_set())
 }

@@ -4,17 +4,23 @@
 //! The second time has its own engine and workers, robots that are read and compiled again,
 //! another number of threads, and mazes and robots in reverse order.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+use std::io;
 
 use wasmouse_core::record::{MatchKey, MatchRecord};
 
 use super::exit::Exit;
 use super::failure::Failure;
+use super::interrupt;
 use super::output::message;
-use super::play::{is_interrupted, play_all};
+use super::play::{Pace, is_interrupted, play};
 use super::robots::{self, RobotSpec};
-use super::setup::{IsolationArgs, independent_executor};
-use crate::contest::{Plan, RecordList, Results, differences};
+use super::setup::{IsolationArgs, TimeArgs, independent_executor};
+use super::verdict::print_failed_admissions;
+use crate::contest::{
+    ContestMatch, MatchFailure, Plan, RecordList, Results, Sink, Tee, differences,
+};
+use crate::report::escape::for_terminal;
 use crate::report::verification::{Difference, MatchName};
 
 /// Differences that are listed.
@@ -29,11 +35,12 @@ pub fn check(
     plan: &Plan,
     results: &Results,
     specs: &[RobotSpec],
-    jobs: usize,
-    isolation: &IsolationArgs,
+    pace: Pace,
+    (isolation, time): (&IsolationArgs, &TimeArgs),
 ) -> Result<Exit, Failure> {
-    let jobs = if jobs > 1 { jobs - 1 } else { 2 };
-    let executor = independent_executor(plan.rules.clone(), jobs, isolation)?;
+    interrupt::listen()?;
+    let jobs = if pace.jobs > 1 { pace.jobs - 1 } else { 2 };
+    let executor = independent_executor(plan.rules.clone(), jobs, isolation, time)?;
     let reversed: Vec<RobotSpec> = specs.iter().rev().cloned().collect();
     let again = Plan {
         entrants: robots::load(&reversed, &executor)?,
@@ -42,7 +49,16 @@ pub fn check(
         rules: plan.rules.clone(),
     };
     let mut list = RecordList::new(u64::MAX);
-    play_all(&again, &executor, jobs, &mut list)?;
+    let mut reasons = Reasons::default();
+    let keys: HashSet<MatchKey> = results.matches.iter().map(|it| it.key).collect();
+    let wanted = |key: &MatchKey| keys.contains(key);
+    play(
+        &again,
+        &executor,
+        Pace { jobs, ..pace },
+        (&wanted, keys.len() as u64),
+        &mut Tee(vec![&mut list, &mut reasons]),
+    )?;
     let found = list.into_records().unwrap_or_default();
     let found: HashMap<MatchKey, MatchRecord> = found
         .into_iter()
@@ -68,9 +84,11 @@ pub fn check(
         message!("interrupted: {missing} matches were not played a second time");
         return Ok(Exit::Interrupted);
     }
-    if missing > 0 {
-        let message = format!("{missing} matches could not be played a second time");
-        return Err(Failure::internal(message));
+    print_failed_admissions(&again);
+    for (key, (reason, matches)) in &reasons.0 {
+        let robot = for_terminal(names.robot(key));
+        let reason = for_terminal(reason);
+        message!("error: {matches} matches of `{robot}` were not played a second time: {reason}");
     }
     if count > 0 {
         message!(
@@ -80,6 +98,35 @@ pub fn check(
         );
         return Ok(Exit::CheckFailed);
     }
+    if missing > 0 {
+        let (missing, all) = (missing, results.matches.len());
+        message!("error: {missing} of {all} matches could not be played a second time");
+        return Ok(Exit::Internal);
+    }
     message!("reproduced {} matches", results.matches.len());
     Ok(Exit::Success)
+}
+
+/// Why matches were not played, by robot: one of their keys, the first reason, how many.
+#[derive(Default)]
+struct Reasons(Vec<(MatchKey, (String, u64))>);
+
+impl Sink for Reasons {
+    fn played(&mut self, _: &ContestMatch) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn failed(&mut self, failure: &MatchFailure) -> io::Result<()> {
+        let robot = |key: &MatchKey| (key.robot, key.variant);
+        let mut known = self.0.iter_mut();
+        match known.find(|it| robot(&it.0) == robot(&failure.key)) {
+            Some((_, (_, matches))) => *matches += 1,
+            None => self.0.push((failure.key, (failure.reason.clone(), 1))),
+        }
+        Ok(())
+    }
+
+    fn withdrawn(&mut self, failure: &MatchFailure) -> io::Result<()> {
+        self.failed(failure)
+    }
 }

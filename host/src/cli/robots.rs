@@ -6,12 +6,12 @@
 
 use std::fs;
 use std::io::Read as _;
+use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use wasmouse_core::Digest;
-use wasmouse_engine::admission::Rejection;
 use wasmouse_engine::bundled::{BundledRobot, Variant, bundled, find};
 use wasmouse_engine::{AdmittedRobot, CacheUse, InfrastructureError, LocalExecutor, Trust};
 
@@ -19,7 +19,7 @@ use super::build;
 use super::failure::Failure;
 use super::output::message;
 use super::suggest::suggestion;
-use crate::contest::Entrant;
+use crate::contest::{Entrant, NotAdmitted};
 use crate::report::escape::for_terminal;
 
 /// What a user may write for a robot, for the long help of commands.
@@ -295,8 +295,8 @@ pub fn unknown_hint(text: &str) -> String {
 ///
 /// # Errors
 ///
-/// When a file cannot be read, or two robots have the same name; a robot that is rejected is an
-/// entrant all the same.
+/// When a file cannot be read, or two robots have the same name, or the sandbox is not what is
+/// required. A robot that is not admitted is an entrant all the same, with the reason.
 pub fn load(specs: &[RobotSpec], executor: &LocalExecutor) -> Result<Vec<Entrant>, Failure> {
     let names = unique_names(specs)?;
     let bytes_max = executor.limits().admission.component_bytes_max;
@@ -332,22 +332,32 @@ pub fn load(specs: &[RobotSpec], executor: &LocalExecutor) -> Result<Vec<Entrant
 ///
 /// # Errors
 ///
-/// When the host fails.
+/// When a complete sandbox is required and there is none. Every other failure of the host is
+/// about this robot alone.
 pub fn admit(
     executor: &LocalExecutor,
     bytes: &[u8],
     trust: Trust,
-) -> Result<Result<Arc<AdmittedRobot>, Arc<Rejection>>, Failure> {
-    let admission = executor
-        .admit(bytes, trust)
-        .map_err(|error| setup_failure(&error))?;
+) -> Result<Result<Arc<AdmittedRobot>, NotAdmitted>, Failure> {
+    // A bug that a file may bring about is no reason to end a contest.
+    let admission = panic::catch_unwind(AssertUnwindSafe(|| executor.admit(bytes, trust)));
     warn_about_sandbox(executor);
-    if let Ok(robot) = &admission
-        && let CacheUse::Failed(reason) = robot.cache_use()
-    {
-        message!("warning: {reason}; robots are compiled again each time");
-    }
-    Ok(admission.map(Arc::new).map_err(Arc::new))
+    Ok(match admission {
+        Ok(Ok(Ok(robot))) => {
+            if let CacheUse::Failed(reason) = robot.cache_use() {
+                message!("warning: {reason}; robots are compiled again each time");
+            }
+            Ok(Arc::new(robot))
+        }
+        Ok(Ok(Err(rejection))) => Err(NotAdmitted::Rejected(Arc::new(rejection))),
+        Ok(Err(error @ InfrastructureError::IncompleteSandbox { .. })) => {
+            return Err(setup_failure(&error));
+        }
+        Ok(Err(error)) => Err(NotAdmitted::Failed(error.to_string())),
+        Err(_) => Err(NotAdmitted::Failed(
+            "wasmouse panicked, which is a bug".to_owned(),
+        )),
+    })
 }
 
 /// Warns once where workers do not have every layer of the sandbox.
@@ -498,5 +508,33 @@ mod tests {
         assert_eq!(names.expect("three names"), ["x/a.wasm", "y/a.wasm", "b"]);
         let failure = unique_names(&specs(&["flood", "flood"])).expect_err("one name");
         assert_eq!(failure.exit(), super::super::exit::Exit::Usage);
+    }
+
+    /// Whatever is wrong with the workers, robots that need none play.
+    #[cfg(unix)]
+    #[test]
+    fn a_robot_that_cannot_be_admitted_costs_nobody_else_anything() {
+        use wasmouse_core::game::Ruleset;
+        use wasmouse_engine::sandbox::{Executable, PATIENCE, WorkerOptions};
+        use wasmouse_engine::{Control, Isolation};
+
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        fs::write(folder.path().join("bot.wasm"), "perhaps a robot").expect("a file");
+        let path = folder.path().to_str().expect("UTF-8");
+        let workers = WorkerOptions {
+            executable: Executable::at("/bin/false"),
+            patience: PATIENCE,
+            require_sandbox: false,
+            control: Control::default(),
+        };
+        let rules = Arc::new(Ruleset::default());
+        let executor = LocalExecutor::new(rules, 1, None, Isolation::Workers(workers));
+        let specs = [path, "flood"].map(|it| resolve(it).expect("a robot"));
+        let entrants = load(&specs.concat(), &executor).expect("both are entrants");
+        let Err(NotAdmitted::Failed(reason)) = &entrants[0].admission else {
+            panic!("it was not even examined");
+        };
+        assert!(reason.starts_with("run worker failed: "), "{reason}");
+        assert!(entrants[1].admission.is_ok());
     }
 }

@@ -12,11 +12,11 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::mazes::{self, BadFiles, Legality};
 use super::output::{self, Draft, Existing, Stdout, message};
-use super::play::play_all;
+use super::play::{Pace, play_all};
 use super::robots::{self, RobotSpec};
-use super::setup::{IsolationArgs, SetupArgs};
+use super::setup::{IsolationArgs, SetupArgs, TimeArgs};
 use super::verdict::{exit, print_faults};
-use super::{backtrace, log, page, reproduce, terminal, watch};
+use super::{backtrace, interrupt, log, page, reproduce, terminal, watch};
 use crate::contest::{
     BestMatches, ContestInfo, FaultSummary, Plan, Player, RESULTS_VERSION, RecordList, Results,
     Seeds, Sink, StandingsBuilder, Summary, SummaryBuilder, Tee,
@@ -41,7 +41,8 @@ Exit codes:
      finished
   1  --reproduce found a difference
   4  a robot was rejected or faulted; all other robots still played
-  5  internal error
+  5  internal error, or a robot took too long or could not be admitted or played
+     for a reason of the host; everything else was played
   6  no robot finished any match
   130  interrupted; what was played by then has been written";
 
@@ -117,6 +118,8 @@ pub struct Args {
     setup: SetupArgs,
     #[command(flatten)]
     isolation: IsolationArgs,
+    #[command(flatten)]
+    time: TimeArgs,
 }
 
 /// Runs the command.
@@ -126,7 +129,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     let draft = |path: &PathBuf| Draft::create(path, existing);
     let file = args.output.as_ref().map(draft).transpose()?;
     let html = args.html.as_ref().map(draft).transpose()?;
-    let executor = args.setup.executor_for_all(&args.isolation)?;
+    let executor = args.setup.executor_for_all(&args.isolation, &args.time)?;
     let bad_files = if args.strict {
         BadFiles::Fail
     } else {
@@ -140,8 +143,11 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         rules: executor.rules().clone(),
     };
     let players = plan.players();
-    let jobs = args.setup.jobs();
-    let played = args.play(&plan, &players, &executor, jobs, file)?;
+    let pace = Pace {
+        jobs: args.setup.jobs(),
+        robot_time: args.time.robot_time(),
+    };
+    let played = args.play(&plan, &players, &executor, pace, file)?;
 
     // Results come first, whatever happens to what is replayed for the user afterwards.
     let results = &played.results;
@@ -157,6 +163,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     if exit == Exit::Interrupted {
         return Ok(exit);
     }
+    interrupt::stop_listening();
     if !args.json {
         backtrace::print(&plan, &players, &robots, &executor, &played.faults);
     }
@@ -168,7 +175,8 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         watch::watch(&plan, &players, &executor, results, delay, args.ascii)?;
     }
     if args.reproduce {
-        let again = reproduce::check(&plan, results, &robots, jobs, &args.isolation)?;
+        let executor = (&args.isolation, &args.time);
+        let again = reproduce::check(&plan, results, &robots, pace, executor)?;
         if again != Exit::Success {
             return Ok(again);
         }
@@ -241,7 +249,7 @@ impl Args {
         plan: &Plan,
         players: &[Player],
         executor: &LocalExecutor,
-        jobs: usize,
+        pace: Pace,
         file: Option<Draft>,
     ) -> Result<Played, Failure> {
         let contest = ContestInfo::new(plan);
@@ -271,7 +279,7 @@ impl Args {
         sinks.extend(best.as_mut().map(|it| it as &mut dyn Sink));
         sinks.extend(file.as_mut().map(FileWriter::sink));
         sinks.extend(stdout.as_mut().map(|it| it as &mut dyn Sink));
-        play_all(plan, executor, jobs, &mut Tee(sinks))?;
+        play_all(plan, executor, pace, &mut Tee(sinks))?;
 
         let summary = summary.finish(plan, standings.finish(plan, players));
         if let Some(file) = file {

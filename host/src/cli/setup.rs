@@ -4,13 +4,15 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread;
+use std::time::Duration;
 
 use etcetera::BaseStrategy as _;
 use wasmouse_core::game::Ruleset;
 use wasmouse_engine::sandbox::{Executable, PATIENCE, WorkerOptions};
-use wasmouse_engine::{Cache, Control, Isolation, LocalExecutor};
+use wasmouse_engine::{Cache, Control, Isolation, LocalExecutor, MATCH_TIME_MAX};
 
 use super::failure::Failure;
+use super::interrupt;
 use super::output::message;
 
 /// How robots are run.
@@ -50,6 +52,43 @@ pub struct IsolationArgs {
     require_sandbox: bool,
 }
 
+/// How long robots may take.
+#[derive(clap::Args, Debug)]
+pub struct TimeArgs {
+    /// Processor time of a match, in seconds. A match that takes longer is played once more; it
+    /// is never a verdict
+    #[arg(long, value_name = "SECONDS", default_value_t = MATCH_TIME_MAX.as_secs(),
+          value_parser = clap::value_parser!(u64).range(1..=86_400))]
+    match_time: u64,
+    /// Processor time that each robot may use in all its matches, in seconds, before it is
+    /// withdrawn [default: 300, and 2 more for each of its matches]
+    #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
+    robot_time: Option<u64>,
+}
+
+impl TimeArgs {
+    /// Processor time of each robot; `None` is the default.
+    pub fn robot_time(&self) -> Option<Duration> {
+        self.robot_time.map(Duration::from_secs)
+    }
+
+    fn control(&self) -> Control {
+        Control {
+            match_time: Duration::from_secs(self.match_time),
+            cancel: interrupt::flag().clone(),
+        }
+    }
+}
+
+impl Default for TimeArgs {
+    fn default() -> Self {
+        Self {
+            match_time: MATCH_TIME_MAX.as_secs(),
+            robot_time: None,
+        }
+    }
+}
+
 fn rules(name: &str) -> Result<Ruleset, String> {
     Ruleset::by_name(name).ok_or_else(|| {
         let names = Ruleset::all().map(|rules| rules.name);
@@ -69,7 +108,13 @@ impl SetupArgs {
     pub fn executor(&self) -> LocalExecutor {
         let engine = &self.engine;
         let rules = Arc::new(self.rules.clone());
-        executor(rules, engine.jobs(), engine.open_cache(), Isolation::None)
+        let control = TimeArgs::default().control();
+        executor(
+            rules,
+            engine.jobs(),
+            engine.open_cache(),
+            (Isolation::None, control),
+        )
     }
 
     /// An executor for all robots.
@@ -77,9 +122,13 @@ impl SetupArgs {
     /// # Errors
     ///
     /// When the program cannot find itself, to start workers from.
-    pub fn executor_for_all(&self, isolation: &IsolationArgs) -> Result<LocalExecutor, Failure> {
+    pub fn executor_for_all(
+        &self,
+        isolation: &IsolationArgs,
+        time: &TimeArgs,
+    ) -> Result<LocalExecutor, Failure> {
         let rules = Arc::new(self.rules.clone());
-        self.engine.executor(rules, isolation)
+        self.engine.executor(rules, isolation, time)
     }
 }
 
@@ -99,8 +148,9 @@ impl EngineArgs {
         &self,
         rules: Arc<Ruleset>,
         isolation: &IsolationArgs,
+        time: &TimeArgs,
     ) -> Result<LocalExecutor, Failure> {
-        let isolation = isolation.isolation()?;
+        let isolation = isolation.isolation(time)?;
         Ok(executor(rules, self.jobs(), self.open_cache(), isolation))
     }
 
@@ -130,10 +180,10 @@ fn executor(
     rules: Arc<Ruleset>,
     jobs: usize,
     cache: Option<Cache>,
-    isolation: Isolation,
+    (isolation, control): (Isolation, Control),
 ) -> LocalExecutor {
     let matches = u32::try_from(jobs).unwrap_or(u32::MAX);
-    LocalExecutor::new(rules, matches, cache, isolation)
+    LocalExecutor::new(rules, matches, cache, isolation).with_control(control)
 }
 
 /// An executor on that many threads that has nothing in common with any other: it compiles all
@@ -146,23 +196,26 @@ pub fn independent_executor(
     rules: Arc<Ruleset>,
     jobs: usize,
     isolation: &IsolationArgs,
+    time: &TimeArgs,
 ) -> Result<LocalExecutor, Failure> {
-    Ok(executor(rules, jobs, None, isolation.isolation()?))
+    Ok(executor(rules, jobs, None, isolation.isolation(time)?))
 }
 
 impl IsolationArgs {
-    fn isolation(&self) -> Result<Isolation, Failure> {
+    fn isolation(&self, time: &TimeArgs) -> Result<(Isolation, Control), Failure> {
+        let control = time.control();
         if self.trust {
-            return Ok(Isolation::None);
+            return Ok((Isolation::None, control));
         }
         let executable = Executable::current().map_err(|error| {
             Failure::internal(format!("failed to find the wasmouse executable: {error}"))
         })?;
-        Ok(Isolation::Workers(WorkerOptions {
+        let workers = WorkerOptions {
             executable,
-            patience: PATIENCE,
+            patience: PATIENCE.max(control.match_time * 5),
             require_sandbox: self.require_sandbox,
-            control: Control::default(),
-        }))
+            control: control.clone(),
+        };
+        Ok((Isolation::Workers(workers), control))
     }
 }

@@ -2,7 +2,7 @@
 
 use super::exit::Exit;
 use super::output::message;
-use crate::contest::{FaultSummary, Plan, Player, Results};
+use crate::contest::{FaultSummary, NotAdmitted, Plan, Player, Results, RobotEntry};
 use crate::report::escape::for_terminal;
 use crate::report::faults::faults;
 
@@ -20,8 +20,21 @@ pub fn exit(plan: &Plan, results: &Results) -> Exit {
             for_terminal(&failure.reason)
         );
     }
+    for entry in &summary.withdrawn {
+        let mut robots = results.contest.robots.iter();
+        let is_meant = |it: &&RobotEntry| it.digest == entry.robot && it.variant == entry.variant;
+        let robot = robots.find(is_meant).map_or("?", |it| it.name.as_str());
+        message!(
+            "withdrawn `{}`: {}; {} of its matches were not played\n  \
+             hint: --match-time and --robot-time allow more",
+            for_terminal(robot),
+            for_terminal(&entry.reason),
+            entry.matches
+        );
+    }
     let planned = results.contest.matches_planned;
-    let ended = summary.matches + summary.failures.len() as u64;
+    let withdrawn: u64 = summary.withdrawn.iter().map(|it| it.matches).sum();
+    let ended = summary.matches + summary.failures.len() as u64 + withdrawn;
     if ended < planned {
         let standings = &summary.standings;
         message!(
@@ -33,7 +46,11 @@ pub fn exit(plan: &Plan, results: &Results) -> Exit {
         return Exit::Interrupted;
     }
     let lines = || summary.standings.lines.iter();
-    if !summary.failures.is_empty() {
+    let robots = &results.contest.robots;
+    if !summary.failures.is_empty()
+        || !summary.withdrawn.is_empty()
+        || robots.iter().any(|it| it.failure.is_some())
+    {
         Exit::Internal
     } else if plan.entrants.iter().any(|it| it.admission.is_err())
         || lines().any(|line| line.faults > 0)
@@ -49,7 +66,7 @@ pub fn exit(plan: &Plan, results: &Results) -> Exit {
 /// Reports on stderr why robots were rejected or faulted.
 pub fn print_faults(plan: &Plan, players: &[Player], results: &Results, summary: &FaultSummary) {
     for entrant in &plan.entrants {
-        if let Err(rejection) = &entrant.admission {
+        if let Err(NotAdmitted::Rejected(rejection)) = &entrant.admission {
             message!(
                 "rejected `{}`: {}\n  hint: {}",
                 for_terminal(&entrant.name),
@@ -58,6 +75,7 @@ pub fn print_faults(plan: &Plan, players: &[Player], results: &Results, summary:
             );
         }
     }
+    print_failed_admissions(plan);
     let lines = &results.summary.standings.lines;
     let played = |player: usize| {
         let name = &plan.entrants[players[player].entrants[0]].name;
@@ -67,5 +85,18 @@ pub fn print_faults(plan: &Plan, players: &[Player], results: &Results, summary:
     let text = faults(summary, &results.names(), played);
     for line in text.lines() {
         message!("{line}");
+    }
+}
+
+/// Reports on stderr which robots the host could not admit.
+pub fn print_failed_admissions(plan: &Plan) {
+    for entrant in &plan.entrants {
+        if let Err(NotAdmitted::Failed(reason)) = &entrant.admission {
+            message!(
+                "error: `{}` could not be admitted: {}",
+                for_terminal(&entrant.name),
+                for_terminal(reason)
+            );
+        }
     }
 }

@@ -13,13 +13,13 @@ use wasmouse_engine::{AdmissionLimits, LocalExecutor, engine_id};
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output::{self, message};
-use super::play::{is_interrupted, play};
+use super::play::{Pace, is_interrupted, play};
 use super::resolve::{Found, Mazes, RobotSource, Robots};
 use super::robots::admit;
-use super::setup::{EngineArgs, IsolationArgs};
+use super::setup::{EngineArgs, IsolationArgs, TimeArgs};
 use crate::contest::{
-    ContestInfo, Entrant, FieldDifference, MazeSource, Plan, RESULTS_VERSION, RecordList, Results,
-    StandingsBuilder, SummaryBuilder, Tee, compare,
+    ContestInfo, Entrant, FieldDifference, MazeSource, NotAdmitted, Plan, RESULTS_VERSION,
+    RecordList, Results, StandingsBuilder, SummaryBuilder, Tee, compare, compare_played,
 };
 use crate::report::escape::for_terminal;
 use crate::report::results_json::{read_results, write_results};
@@ -75,6 +75,8 @@ pub struct Args {
     engine: EngineArgs,
     #[command(flatten)]
     isolation: IsolationArgs,
+    #[command(flatten)]
+    time: TimeArgs,
 }
 
 /// Runs the command.
@@ -217,7 +219,9 @@ impl Args {
         }
         let rules = Arc::new(recorded.contest.rules.clone());
         check_rules(&rules, &shown)?;
-        let executor = self.engine.executor(Arc::clone(&rules), &self.isolation)?;
+        let executor = self
+            .engine
+            .executor(Arc::clone(&rules), &self.isolation, &self.time)?;
         let plan = Plan {
             entrants: entrants(&recorded, &required.robots, &available.robots, &executor)?,
             mazes: required.mazes,
@@ -230,8 +234,16 @@ impl Args {
             report.reason = Some(format!("interrupted after {played} of {all} matches"));
             return Ok((report, Exit::Interrupted));
         }
-        if let Some(failure) = found.summary.failures.first() {
-            report.reason = Some(failure.reason.clone());
+        if let Some(reason) = not_played(&recorded, &found) {
+            report.reason = Some(reason);
+            let names = recorded.names();
+            for (key, field) in compare_played(&recorded, &found) {
+                let of = key.map(|key| MatchName::new(&names, &key));
+                report.differences.add(of.as_ref(), [field]);
+            }
+            if report.differences.count() > 0 {
+                report.status = Status::Changed;
+            }
             return Ok((report, Exit::Internal));
         }
         Ok(judge(report, &recorded, &found, &bytes))
@@ -255,7 +267,10 @@ impl Args {
         play(
             plan,
             executor,
-            self.engine.jobs(),
+            Pace {
+                jobs: self.engine.jobs(),
+                robot_time: self.time.robot_time(),
+            },
             (&wanted, total),
             &mut sink,
         )?;
@@ -264,8 +279,16 @@ impl Args {
         if !recorded.summary.complete {
             contest.matches_planned = recorded.contest.matches_planned;
         }
+        for key in recorded.summary.failures.iter().map(|it| &it.key) {
+            standings.set_incomplete(key.robot, key.variant);
+        }
+        for robot in &recorded.summary.withdrawn {
+            standings.set_incomplete(robot.robot, robot.variant);
+        }
         let mut standings = standings.finish(plan, &players);
-        standings.partial |= !recorded.summary.complete;
+        let matches_per_maze = players.len() as u64 * u64::from(plan.seeds.count);
+        let mazes_planned = contest.matches_planned.checked_div(matches_per_maze);
+        standings.partial = standings.mazes < mazes_planned.unwrap_or(0);
         let mut summary = summary.finish(plan, standings);
         summary.complete = summary.matches == contest.matches_planned;
         Ok(Results {
@@ -275,6 +298,24 @@ impl Args {
             summary,
         })
     }
+}
+
+/// Why not all recorded matches were played again.
+fn not_played(recorded: &Results, found: &Results) -> Option<String> {
+    let robots = recorded.contest.robots.iter().zip(&found.contest.robots);
+    let mut failed = robots.filter(|(then, now)| then.failure.is_none() && now.failure.is_some());
+    if let Some((robot, now)) = failed.next() {
+        let reason = now.failure.as_deref().unwrap_or_default();
+        return Some(format!("`{}` could not be admitted: {reason}", robot.name));
+    }
+    if let Some(failure) = found.summary.failures.first() {
+        return Some(failure.reason.clone());
+    }
+    let withdrawn = found.summary.withdrawn.first()?;
+    let mut robots = found.contest.robots.iter();
+    let robot = robots.find(|it| it.digest == withdrawn.robot && it.variant == withdrawn.variant);
+    let name = robot.map_or("?", |it| it.name.as_str());
+    Some(format!("`{name}` was withdrawn: {}", withdrawn.reason))
 }
 
 /// The report on a result whose matches were all played again.
@@ -337,9 +378,11 @@ fn entrants(
     for (entry, source) in recorded.contest.robots.iter().zip(sources) {
         // A robot takes part once for each variant, and is admitted once.
         let known = entrants.iter().find(|it| it.digest == entry.digest);
-        let admission = match known {
-            Some(known) => known.admission.clone(),
-            None => {
+        let admission = match (known, &entry.failure) {
+            (Some(known), _) => known.admission.clone(),
+            // What could not be admitted then has no matches to play now.
+            (None, Some(reason)) => Err(NotAdmitted::Failed(reason.clone())),
+            (None, None) => {
                 let (bytes, trust) = robots.read(source)?;
                 admit(executor, &bytes, trust)?
             }

@@ -22,13 +22,13 @@ pub use difference::{FieldDifference, differences};
 pub use faults::{FaultGroup, FaultSummary};
 pub use maze_source::{ContestMaze, MazeSource};
 pub use mean::Mean;
-pub use plan::{Entrant, KeyParts, Plan, Player, Seeds};
+pub use plan::{Entrant, KeyParts, NotAdmitted, Plan, Player, Seeds};
 pub use results::{
     ContestInfo, MazeEntry, Names, RESULTS_VERSION, RejectionEntry, Results, RobotEntry, Summary,
-    SummaryBuilder, records_digest,
+    SummaryBuilder, WithdrawalEntry, records_digest,
 };
-pub use run::{Options, RunError, run};
+pub use run::{Options, RunError, default_robot_time, run};
 pub use sink::{ContestMatch, MatchFailure, RecordList, Sink, Tee};
 pub use standings::{Standing, Standings, StandingsBuilder};
 pub use tally::{Regret, Tally};
-pub use verify::{Compared, compare};
+pub use verify::{Compared, compare, compare_played};

@@ -22,7 +22,16 @@ pub struct Entrant {
     /// The number that chooses its mode.
     pub variant: u32,
     /// The admitted robot, or why it plays no match.
-    pub admission: Result<Arc<AdmittedRobot>, Arc<Rejection>>,
+    pub admission: Result<Arc<AdmittedRobot>, NotAdmitted>,
+}
+
+/// Why an entrant plays no match.
+#[derive(Clone, Debug)]
+pub enum NotAdmitted {
+    /// Its file is rejected.
+    Rejected(Arc<Rejection>),
+    /// The host could not admit it, which says nothing about the robot: why.
+    Failed(String),
 }
 
 /// Consecutive seeds.

@@ -14,12 +14,12 @@ use wasmouse_core::{Digest, DigestBuilder};
 use wasmouse_engine::engine_id;
 
 use super::maze_source::ContestMaze;
-use super::plan::{Plan, Seeds};
+use super::plan::{NotAdmitted, Plan, Seeds};
 use super::sink::{ContestMatch, MatchFailure, Sink};
 use super::standings::Standings;
 
 /// The version of the document; raised when a reader of the old one would go wrong.
-pub const RESULTS_VERSION: u32 = 2;
+pub const RESULTS_VERSION: u32 = 3;
 
 /// The results of a contest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -66,6 +66,16 @@ pub struct RobotEntry {
     /// Why it was rejected and played no match.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rejection: Option<RejectionEntry>,
+    /// Why the host could not admit it, so that it played no match; says nothing about the robot.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub failure: Option<String>,
+}
+
+impl RobotEntry {
+    /// Whether it plays.
+    pub const fn is_admitted(&self) -> bool {
+        self.rejection.is_none() && self.failure.is_none()
+    }
 }
 
 /// A rejection in a document.
@@ -92,10 +102,27 @@ pub struct Summary {
     pub mazes: Vec<MazeEntry>,
     /// Matches that the host could not play.
     pub failures: Vec<MatchFailure>,
+    /// Robots that were withdrawn because they took too long.
+    pub withdrawn: Vec<WithdrawalEntry>,
     /// The ranking.
     pub standings: Standings,
     /// [`records_digest`] of the matches: names the whole contest in one line.
     pub digest: Digest,
+}
+
+/// A robot that was withdrawn, in a document. The matches that it had played by then are among
+/// the others.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WithdrawalEntry {
+    /// The digest of the robot.
+    pub robot: Digest,
+    /// Its variant.
+    pub variant: u32,
+    /// Why.
+    pub reason: String,
+    /// How many of its matches were not played for that.
+    pub matches: u64,
 }
 
 /// A maze in a document.
@@ -115,15 +142,26 @@ pub struct MazeEntry {
 impl ContestInfo {
     /// The description of a plan.
     pub fn new(plan: &Plan) -> Self {
-        let robots = plan.entrants.iter().map(|entrant| RobotEntry {
-            name: entrant.name.clone(),
-            digest: entrant.digest,
-            variant: entrant.variant,
-            rejection: entrant.admission.as_ref().err().map(|it| RejectionEntry {
-                kind: it.name().to_owned(),
-                reason: it.to_string(),
-                hint: it.hint().to_owned(),
-            }),
+        let robots = plan.entrants.iter().map(|entrant| {
+            let (rejection, failure) = match &entrant.admission {
+                Ok(_) => (None, None),
+                Err(NotAdmitted::Rejected(it)) => {
+                    let rejection = RejectionEntry {
+                        kind: it.name().to_owned(),
+                        reason: it.to_string(),
+                        hint: it.hint().to_owned(),
+                    };
+                    (Some(rejection), None)
+                }
+                Err(NotAdmitted::Failed(reason)) => (None, Some(reason.clone())),
+            };
+            RobotEntry {
+                name: entrant.name.clone(),
+                digest: entrant.digest,
+                variant: entrant.variant,
+                rejection,
+                failure,
+            }
         });
         Self {
             wasmouse: env!("CARGO_PKG_VERSION").to_owned(),
@@ -211,6 +249,7 @@ pub struct SummaryBuilder {
     digest: DigestBuilder,
     mazes: Vec<MazeEntry>,
     failures: Vec<MatchFailure>,
+    withdrawn: Vec<WithdrawalEntry>,
     matches: u64,
 }
 
@@ -221,6 +260,7 @@ impl SummaryBuilder {
             digest: DigestBuilder::new("wasmouse.results.1"),
             mazes: Vec::new(),
             failures: Vec::new(),
+            withdrawn: Vec::new(),
             matches: 0,
         }
     }
@@ -232,6 +272,7 @@ impl SummaryBuilder {
             complete: self.matches == plan.matches(),
             mazes: self.mazes,
             failures: self.failures,
+            withdrawn: self.withdrawn,
             standings,
             digest: self.digest.finish(),
         }
@@ -263,6 +304,22 @@ impl Sink for SummaryBuilder {
 
     fn failed(&mut self, failure: &MatchFailure) -> io::Result<()> {
         self.failures.push(failure.clone());
+        Ok(())
+    }
+
+    fn withdrawn(&mut self, failure: &MatchFailure) -> io::Result<()> {
+        let key = &failure.key;
+        let is_same =
+            |it: &&mut WithdrawalEntry| it.robot == key.robot && it.variant == key.variant;
+        match self.withdrawn.iter_mut().find(is_same) {
+            Some(entry) => entry.matches += 1,
+            None => self.withdrawn.push(WithdrawalEntry {
+                robot: key.robot,
+                variant: key.variant,
+                reason: failure.reason.clone(),
+                matches: 1,
+            }),
+        }
         Ok(())
     }
 }

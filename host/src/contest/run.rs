@@ -4,16 +4,23 @@
 //! and seeds, block after block, so a contest of a million matches needs the memory of a few
 //! blocks; mazes are generated and solved by the thread that needs them first. Matches end in
 //! any order and reach the sink in the order of the plan.
+//!
+//! A robot that turns out to be slow plays last: its batches are put off, match by match, until
+//! there is nothing else to play or the threads would have to wait. So is a match that did not
+//! end in time, which is played once more. A robot that is [withdrawn](wasmouse_engine::Account::withdrawal)
+//! plays no more.
 
 use std::collections::VecDeque;
 use std::io;
 use std::ops::{ControlFlow, Range};
+use std::panic::{self, AssertUnwindSafe};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::thread;
+use std::time::Duration;
 
-use wasmouse_core::record::MatchKey;
-use wasmouse_engine::{Executor, STACK_BYTES};
+use wasmouse_core::record::{MatchKey, MatchSpec};
+use wasmouse_engine::{Executor, InfrastructureError, Played, STACK_BYTES};
 
 use super::maze_source::ContestMaze;
 use super::plan::{KeyParts, Plan, Player};
@@ -34,6 +41,13 @@ const BLOCK_ROWS_MAX: usize = 256;
 /// How many blocks the threads may be ahead of the first one that is not complete.
 const BLOCKS_AHEAD: usize = 8;
 
+/// Processor time that a robot may use in a contest of that many matches of its own, by default.
+/// All the fuel of a match lasts 1 to 2 s in a robot like flood, so such a robot never reaches it;
+/// one that uses all its fuel ten times as slowly does after some ten matches.
+pub const fn default_robot_time(matches: u64) -> Duration {
+    Duration::from_secs(300_u64.saturating_add(matches.saturating_mul(2)))
+}
+
 /// How a contest is run.
 pub struct Options<'a> {
     /// Threads. Range: at least 1.
@@ -44,6 +58,9 @@ pub struct Options<'a> {
     pub wanted: &'a (dyn Fn(&MatchKey) -> bool + Sync),
     /// Called for every match as it ends, from any thread.
     pub progress: &'a (dyn Fn() + Sync),
+    /// Processor time that each robot may use, in all its variants together; `None` is
+    /// [`default_robot_time`].
+    pub robot_time: Option<Duration>,
 }
 
 /// Why a contest did not come to its end.
@@ -75,6 +92,7 @@ pub fn run(
     if players.is_empty() || rows == 0 {
         return Ok(());
     }
+    set_budgets(&players, rows, options.robot_time);
     let block_rows = (BLOCK_MATCHES_MAX / players.len()).clamp(1, BLOCK_ROWS_MAX);
     let batch = plan.matches() / (jobs as u64 * BATCHES_PER_JOB);
     let batch = usize::try_from(batch).unwrap_or(BATCH_MAX);
@@ -110,6 +128,17 @@ pub fn run(
     run.finish()
 }
 
+/// Sets the budget of each robot.
+fn set_budgets(players: &[Player], rows: u64, robot_time: Option<Duration>) {
+    for player in players {
+        let robot = player.robot.digest();
+        let variants = players.iter().filter(|it| it.robot.digest() == robot);
+        let matches = rows.saturating_mul(variants.count() as u64);
+        let budget = robot_time.unwrap_or_else(|| default_robot_time(matches));
+        player.robot.account().set_budget(budget);
+    }
+}
+
 /// A contest in progress.
 struct Run<'a> {
     plan: &'a Plan,
@@ -138,6 +167,8 @@ struct State {
     begun: u64,
     /// Batches of the last block that are not taken yet, last one first.
     batches: Vec<Batch>,
+    /// Single matches of slow robots, and those that did not end in time.
+    put_off: VecDeque<(Arc<Block>, Batch)>,
     error: Option<RunError>,
 }
 
@@ -160,12 +191,34 @@ struct Slots {
 enum Ended {
     Played(ContestMatch),
     Failed(MatchFailure),
+    Withdrawn(MatchFailure),
 }
 
 /// Rows of one player, relative to the block.
 struct Batch {
     player: usize,
     rows: Range<usize>,
+    /// Whether it is a match that did not end in time before.
+    is_again: bool,
+}
+
+impl Batch {
+    /// Its matches, one by one.
+    fn singly(&self) -> impl Iterator<Item = Self> {
+        let (player, is_again) = (self.player, self.is_again);
+        self.rows.clone().map(move |row| Self {
+            player,
+            rows: row..row + 1,
+            is_again,
+        })
+    }
+}
+
+/// What came of a batch.
+struct PlayedBatch {
+    /// By row; `None` for what is not wanted, was not played, or is put off.
+    ended: Vec<Option<Ended>>,
+    put_off: Vec<Batch>,
 }
 
 struct Emitter<'a> {
@@ -177,14 +230,21 @@ impl Run<'_> {
     /// Plays batches until there are none.
     fn work(&self) {
         while let Some((block, batch)) = self.take() {
-            let ended = self.play(&block, &batch);
+            let PlayedBatch { ended, put_off } = self.play(&block, &batch);
             {
+                let mut state = lock(&self.state);
                 let mut slots = lock(&block.slots);
                 for (row, ended) in batch.rows.clone().zip(ended) {
-                    slots.matches[row * self.players.len() + batch.player] = ended;
+                    if ended.is_some() {
+                        slots.matches[row * self.players.len() + batch.player] = ended;
+                    }
                 }
+                slots.batches_left += put_off.len();
                 slots.batches_left -= 1;
+                let put_off = put_off.into_iter().map(|it| (Arc::clone(&block), it));
+                state.put_off.extend(put_off);
             }
+            self.changed.notify_all();
             self.emit_complete();
         }
     }
@@ -201,17 +261,20 @@ impl Run<'_> {
                 return None;
             }
             if let Some(batch) = state.batches.pop() {
-                let block = state
-                    .blocks
-                    .back()
-                    .expect("batches belong to the last block");
-                return Some((Arc::clone(block), batch));
-            }
-            if state.begun == self.rows {
-                return None;
-            }
-            if state.blocks.len() < BLOCKS_AHEAD {
+                let block = state.blocks.back().map(Arc::clone);
+                let block = block.expect("batches belong to the last block");
+                if !self.is_put_off(batch.player) {
+                    return Some((block, batch));
+                }
+                lock(&block.slots).batches_left += batch.rows.len() - 1;
+                let singly = batch.singly().map(|it| (Arc::clone(&block), it));
+                state.put_off.extend(singly);
+            } else if state.begun < self.rows && state.blocks.len() < BLOCKS_AHEAD {
                 self.begin_block(&mut state);
+            } else if let Some(single) = state.put_off.pop_front() {
+                return Some(single);
+            } else if state.begun == self.rows {
+                return None;
             } else {
                 state = self
                     .changed
@@ -219,6 +282,12 @@ impl Run<'_> {
                     .unwrap_or_else(PoisonError::into_inner);
             }
         }
+    }
+
+    /// Whether a player's matches are put off. Those of one that was withdrawn end at once.
+    fn is_put_off(&self, player: usize) -> bool {
+        let account = self.players[player].robot.account();
+        account.is_slow() && account.withdrawal().is_none()
     }
 
     fn begin_block(&self, state: &mut State) {
@@ -233,6 +302,7 @@ impl Run<'_> {
                 state.batches.extend(group.iter().map(|&start| Batch {
                     player,
                     rows: start..length.min(start + self.batch),
+                    is_again: false,
                 }));
             }
         }
@@ -267,51 +337,94 @@ impl Run<'_> {
             .get_or_init(|| self.plan.mazes[index].prepare(&self.plan.rules.game))
     }
 
-    /// Plays a batch; what is not wanted, and what was not played when the contest was
-    /// cancelled, is left out at the end.
-    fn play(&self, block: &Block, batch: &Batch) -> Vec<Option<Ended>> {
+    /// Plays a batch. When everything is cancelled, what was not played is left out.
+    fn play(&self, block: &Block, batch: &Batch) -> PlayedBatch {
         let player = &self.players[batch.player];
         let first = block.rows.start;
-        let mut wanted = Vec::with_capacity(batch.rows.len());
+        let mut rows = Vec::with_capacity(batch.rows.len());
         let mut specs = Vec::with_capacity(batch.rows.len());
         for row in batch.rows.clone() {
             let row_in_plan = first + row as u64;
             let maze = self.maze(block, row_in_plan);
             let seed = self.seed_of(row_in_plan);
             let spec = self.plan.spec(self.parts, player, maze, seed);
-            let is_wanted = (self.options.wanted)(&spec.key);
-            wanted.push(is_wanted);
-            if is_wanted {
+            if (self.options.wanted)(&spec.key) {
+                rows.push(row);
                 specs.push(spec);
             }
         }
-        let mut ended = Vec::with_capacity(specs.len());
-        let _ = self
-            .executor
-            .execute(&player.robot, &specs, &mut |spec, played| {
-                ended.push(match played {
-                    Ok(played) => Ended::Played(ContestMatch {
-                        player: batch.player,
-                        record: played.record,
-                        transcript: played.transcript.clone(),
-                    }),
-                    Err(error) => Ended::Failed(MatchFailure {
-                        key: spec.key,
-                        reason: error.to_string(),
-                    }),
-                });
-                (self.options.progress)();
-                if self.is_cancelled() {
-                    ControlFlow::Break(())
-                } else {
-                    ControlFlow::Continue(())
+        let mut played = PlayedBatch {
+            ended: batch.rows.clone().map(|_| None).collect(),
+            put_off: Vec::new(),
+        };
+        let single = |row: usize, is_again| Batch {
+            player: batch.player,
+            rows: row..row + 1,
+            is_again,
+        };
+        let mut done = 0;
+        let mut sink = |spec: &MatchSpec, result: Result<Played<'_>, InfrastructureError>| {
+            let row = rows[done];
+            done += 1;
+            match self.ended(batch, spec, result) {
+                Some(ended) => {
+                    played.ended[row - batch.rows.start] = Some(ended);
+                    (self.options.progress)();
                 }
-            });
-        let mut ended = ended.into_iter();
-        wanted
-            .into_iter()
-            .map(|is_wanted| if is_wanted { ended.next() } else { None })
-            .collect()
+                None => played.put_off.push(single(row, true)),
+            }
+            if self.is_cancelled() || self.is_put_off(batch.player) {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        };
+        // A bug that a robot may bring about costs this match, and not the contest.
+        let outcome = panic::catch_unwind(AssertUnwindSafe(|| {
+            self.executor.execute(&player.robot, &specs, &mut sink)
+        }));
+        if outcome.is_err()
+            && let (Some(&row), Some(spec)) = (rows.get(done), specs.get(done))
+        {
+            done += 1;
+            played.ended[row - batch.rows.start] = Some(Ended::Failed(MatchFailure {
+                key: spec.key,
+                reason: "wasmouse panicked, which is a bug".to_owned(),
+            }));
+            (self.options.progress)();
+        }
+        if !self.is_cancelled() {
+            let rest = rows.get(done..).unwrap_or_default();
+            played
+                .put_off
+                .extend(rest.iter().map(|&row| single(row, batch.is_again)));
+        }
+        played
+    }
+
+    /// What came of a match; `None` when it is to be played again.
+    fn ended(
+        &self,
+        batch: &Batch,
+        spec: &MatchSpec,
+        played: Result<Played<'_>, InfrastructureError>,
+    ) -> Option<Ended> {
+        let failure = |reason: String| MatchFailure {
+            key: spec.key,
+            reason,
+        };
+        match played {
+            Ok(played) => Some(Ended::Played(ContestMatch {
+                player: batch.player,
+                record: played.record,
+                transcript: played.transcript.clone(),
+            })),
+            Err(InfrastructureError::Withdrawn(reason)) => {
+                Some(Ended::Withdrawn(failure(reason.to_string())))
+            }
+            Err(error) if error.is_stall() && !batch.is_again => None,
+            Err(error) => Some(Ended::Failed(failure(error.to_string()))),
+        }
     }
 
     /// Emits the blocks at the front that are complete.
@@ -351,6 +464,7 @@ impl Run<'_> {
             match ended {
                 Ended::Played(played) => emitter.sink.played(&played)?,
                 Ended::Failed(failure) => emitter.sink.failed(&failure)?,
+                Ended::Withdrawn(failure) => emitter.sink.withdrawn(&failure)?,
             }
         }
         Ok(())

@@ -57,6 +57,16 @@ pub trait Sink: Send {
         let _ = failure;
         Ok(())
     }
+
+    /// A match that was not played because its robot was withdrawn, and why.
+    ///
+    /// # Errors
+    ///
+    /// When the sink cannot go on.
+    fn withdrawn(&mut self, failure: &MatchFailure) -> io::Result<()> {
+        let _ = failure;
+        Ok(())
+    }
 }
 
 /// Passes everything on to several sinks, in their order.
@@ -79,6 +89,10 @@ impl Sink for Tee<'_> {
 
     fn failed(&mut self, failure: &MatchFailure) -> io::Result<()> {
         self.each(|sink| sink.failed(failure))
+    }
+
+    fn withdrawn(&mut self, failure: &MatchFailure) -> io::Result<()> {
+        self.each(|sink| sink.withdrawn(failure))
     }
 }
 

@@ -1,9 +1,11 @@
 //! [`Standings`]: who did how well.
 
 use std::cmp::Reverse;
+use std::collections::HashMap;
 use std::io;
 
 use serde::{Deserialize, Serialize};
+use wasmouse_core::Digest;
 use wasmouse_core::game::Score;
 
 use super::maze_source::ContestMaze;
@@ -16,7 +18,8 @@ use super::tally::Tally;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Standings {
-    /// Mazes that the ranks are about: those that every robot has played with every seed.
+    /// Mazes that the ranks are about: those that every robot has played with every seed. Robots
+    /// with matches that the host could not play do not count.
     pub mazes: u64,
     /// Whether there are other mazes in the contest: the ranking is then a partial one.
     pub partial: bool,
@@ -29,7 +32,8 @@ pub struct Standings {
 #[serde(deny_unknown_fields)]
 pub struct Standing {
     /// Counted from 1; robots that did equally well share a rank. `None` for a robot that was
-    /// rejected, and for all while no maze was played by every robot.
+    /// not admitted or has matches that the host could not play, and for all while no maze was
+    /// played by every robot.
     pub rank: Option<u32>,
     /// The entrant's name.
     pub robot: String,
@@ -48,57 +52,102 @@ pub struct Standing {
 }
 
 /// Counts matches maze by maze, as they arrive.
+///
+/// One robot with matches that the host could not play does not keep the others from being
+/// ranked: it has no rank, and which mazes count does not depend on it.
 #[derive(Debug)]
 pub struct StandingsBuilder {
-    /// Matches of one maze when it is complete.
+    /// Matches of one player in a maze that it has played.
     matches_per_maze: u64,
     mazes_planned: u64,
     mazes: u64,
-    /// By player, over the complete mazes.
+    /// The players by robot and variant.
+    players: HashMap<(Digest, u32), usize>,
+    /// By player, whether the host could not play all of its matches.
+    incomplete: Vec<bool>,
+    /// By player, over the mazes that count.
     tallies: Vec<Tally>,
     /// By player, of the maze in progress.
     current: Vec<Tally>,
+    /// Mazes that are not known to count: only when some player turns out to be incomplete.
+    /// There are few, because only an interrupted contest leaves such mazes.
+    pending: Vec<Vec<Tally>>,
     oracle: Option<Score>,
 }
 
 impl StandingsBuilder {
     /// Standings without matches.
     pub fn new(plan: &Plan, players: &[Player]) -> Self {
+        let by_key = players.iter().enumerate();
         Self {
-            matches_per_maze: players.len() as u64 * u64::from(plan.seeds.count),
+            matches_per_maze: u64::from(plan.seeds.count),
             mazes_planned: plan.mazes.len() as u64,
             mazes: 0,
+            players: by_key
+                .map(|(index, it)| ((*it.robot.digest(), it.variant), index))
+                .collect(),
+            incomplete: vec![false; players.len()],
             tallies: vec![Tally::default(); players.len()],
             current: vec![Tally::default(); players.len()],
+            pending: Vec::new(),
             oracle: None,
+        }
+    }
+
+    /// Says that the host could not play all matches of a robot.
+    pub fn set_incomplete(&mut self, robot: Digest, variant: u32) {
+        if let Some(&player) = self.players.get(&(robot, variant)) {
+            self.incomplete[player] = true;
         }
     }
 
     /// Takes the maze in progress into account when every robot has played it.
     fn end_maze(&mut self) {
-        let matches: u64 = self.current.iter().map(|tally| tally.matches).sum();
-        if matches > 0 && matches == self.matches_per_maze {
+        let empty = vec![Tally::default(); self.current.len()];
+        let maze = std::mem::replace(&mut self.current, empty);
+        if !self.count_maze(&maze) && maze.iter().any(|tally| tally.matches > 0) {
+            self.pending.push(maze);
+        }
+    }
+
+    /// Counts a maze if every robot has played it that is not known to be incomplete.
+    fn count_maze(&mut self, maze: &[Tally]) -> bool {
+        let has_played = |tally: &Tally| tally.matches == self.matches_per_maze;
+        let mut players = maze.iter().zip(&self.incomplete);
+        let counts = players.all(|(tally, &is_incomplete)| is_incomplete || has_played(tally))
+            && maze.iter().any(has_played);
+        if counts {
             self.mazes += 1;
-            for (tally, current) in self.tallies.iter_mut().zip(&self.current) {
-                tally.merge(current);
+            for (tally, current) in self.tallies.iter_mut().zip(maze) {
+                if current.matches == self.matches_per_maze {
+                    tally.merge(current);
+                }
             }
         }
-        self.current.fill(Tally::default());
+        counts
     }
 
     /// The standings of everything that has arrived.
     ///
     /// More finished matches rank higher; among as many, the lower average score of those.
-    /// Robots that were rejected come last, in the order of the plan.
+    /// Robots whose matches could not all be played come next, and last those that were not
+    /// admitted, in the order of the plan.
     pub fn finish(mut self, plan: &Plan, players: &[Player]) -> Standings {
         self.end_maze();
-        let mut by_entrant: Vec<Option<&Tally>> = vec![None; plan.entrants.len()];
-        for (player, tally) in players.iter().zip(&self.tallies) {
+        for maze in std::mem::take(&mut self.pending) {
+            self.count_maze(&maze);
+        }
+        let mut by_entrant: Vec<Option<(bool, &Tally)>> = vec![None; plan.entrants.len()];
+        for (player, tally) in players
+            .iter()
+            .zip(self.incomplete.iter().zip(&self.tallies))
+        {
             for &entrant in &player.entrants {
-                by_entrant[entrant] = Some(tally);
+                by_entrant[entrant] = Some((*tally.0, tally.1));
             }
         }
         let mut order: Vec<usize> = (0..plan.entrants.len()).collect();
+        let key = |(is_incomplete, tally): (bool, &Tally)| (is_incomplete, key(tally));
         order.sort_by_key(|&entrant| (by_entrant[entrant].is_none(), by_entrant[entrant].map(key)));
         let mut lines = Vec::with_capacity(order.len());
         let (mut rank, mut last) = (0, None);
@@ -109,8 +158,8 @@ impl StandingsBuilder {
                 rank = u32::try_from(place + 1).unwrap_or(u32::MAX);
                 last = key;
             }
-            let is_ranked = tally.is_some() && self.mazes > 0;
-            let tally = tally.copied().unwrap_or_default();
+            let is_ranked = tally.is_some_and(|it| !it.0) && self.mazes > 0;
+            let tally = tally.map(|it| *it.1).unwrap_or_default();
             lines.push(Standing {
                 rank: is_ranked.then_some(rank),
                 robot: plan.entrants[entrant].name.clone(),
@@ -148,8 +197,12 @@ impl Sink for StandingsBuilder {
         Ok(())
     }
 
-    fn failed(&mut self, _: &MatchFailure) -> io::Result<()> {
-        // A match that is missing leaves its maze incomplete, so the maze is not ranked.
+    fn failed(&mut self, failure: &MatchFailure) -> io::Result<()> {
+        self.set_incomplete(failure.key.robot, failure.key.variant);
         Ok(())
+    }
+
+    fn withdrawn(&mut self, failure: &MatchFailure) -> io::Result<()> {
+        self.failed(failure)
     }
 }

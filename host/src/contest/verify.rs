@@ -1,6 +1,6 @@
 //! [`compare`]: recorded results against the same matches played again.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use serde_json::Value;
 use wasmouse_core::record::{MatchKey, MatchRecord};
@@ -26,11 +26,26 @@ pub fn compare(recorded: &Results, found: &Results) -> Vec<Compared> {
     let mut summary = found.summary.clone();
     // What could not be played then is not played now.
     summary.failures.clone_from(&recorded.summary.failures);
+    summary.withdrawn.clone_from(&recorded.summary.withdrawn);
     add(
         &mut compared,
         "summary",
         differences(&recorded.summary, &summary),
     );
+    compared
+}
+
+/// Everything in which recorded matches differ from those of the same keys that were played again,
+/// when not all could be.
+pub fn compare_played(recorded: &Results, found: &Results) -> Vec<Compared> {
+    let keys: HashSet<&MatchKey> = found.matches.iter().map(|it| &it.key).collect();
+    let played = recorded.matches.iter();
+    let played: Vec<MatchRecord> = played
+        .filter(|record| keys.contains(&record.key))
+        .cloned()
+        .collect();
+    let mut compared = Vec::new();
+    compare_matches(&played, &found.matches, &mut compared);
     compared
 }
 

@@ -11,7 +11,7 @@ use wasmouse_core::record::{MatchRecord, ReplayError, trace};
 use super::escape::for_terminal;
 use super::paths::paths;
 use super::standings::{self as standings_text, NONE};
-use crate::contest::{BestMatch, ContestInfo, Names, Results, Summary};
+use crate::contest::{BestMatch, ContestInfo, Names, Results, Summary, WithdrawalEntry};
 
 /// Matches that a page lists, at most; browsers are slow to lay out longer tables.
 pub const LISTED_MAX: usize = 1000;
@@ -161,7 +161,23 @@ impl<'a> Page<'a> {
                     (for_terminal(&failure.reason)) }
             }
             (more(self.summary.failures.len(), FAILURES_MAX))
+            @for robot in self.contest.robots.iter().filter(|it| it.failure.is_some()) {
+                p { "Internal error: " strong { (for_terminal(&robot.name)) }
+                    " could not be admitted: "
+                    (for_terminal(robot.failure.as_deref().unwrap_or_default())) }
+            }
+            @for entry in &self.summary.withdrawn {
+                p { "Withdrawn: " strong { (for_terminal(self.withdrawn_name(entry))) } ": "
+                    (for_terminal(&entry.reason)) "; " (entry.matches)
+                    " of its matches were not played." }
+            }
         }
+    }
+
+    fn withdrawn_name(&self, entry: &WithdrawalEntry) -> &str {
+        let mut robots = self.contest.robots.iter();
+        let robot = robots.find(|it| it.digest == entry.robot && it.variant == entry.variant);
+        robot.map_or("?", |it| &it.name)
     }
 
     fn standings(&self) -> Markup {

@@ -9,7 +9,7 @@ use wasmouse_core::record::{EngineId, FuelUse, MatchKey, MatchRecord, RecordVers
 
 use crate::contest::{
     ContestInfo, MatchFailure, MazeEntry, RESULTS_VERSION, RejectionEntry, Results, RobotEntry,
-    Seeds, Standing, Standings, Summary, records_digest,
+    Seeds, Standing, Standings, Summary, WithdrawalEntry, records_digest,
 };
 
 /// Text that controls a terminal, ends a string, a line and an element.
@@ -48,6 +48,7 @@ pub(super) fn results() -> Results {
             reason: format!("it imports {HOSTILE}"),
             hint: "build it without".to_owned(),
         }),
+        failure: None,
     });
     let mazes = ["test_maze_01", HOSTILE].map(|name| MazeEntry {
         name: name.to_owned(),
@@ -127,6 +128,12 @@ pub(super) fn results() -> Results {
             complete: false,
             mazes: mazes.into(),
             failures,
+            withdrawn: vec![WithdrawalEntry {
+                robot: Digest::of(HOSTILE.as_bytes()),
+                variant: 0,
+                reason: format!("too slow: {HOSTILE}"),
+                matches: 7,
+            }],
             standings,
             digest: records_digest(&matches),
         },

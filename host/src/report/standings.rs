@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::escape;
-use crate::contest::{ContestInfo, Mean, Standing, Standings};
+use crate::contest::{ContestInfo, Mean, RobotEntry, Standing, Standings};
 
 /// What is shown where there is no value.
 pub(super) const NONE: &str = "-";
@@ -24,7 +24,7 @@ pub(super) fn scope(contest: &ContestInfo, standings: &Standings) -> String {
 
 /// How many mazes the contest has.
 fn mazes_planned(contest: &ContestInfo) -> u64 {
-    let admitted = contest.robots.iter().filter(|it| it.rejection.is_none());
+    let admitted = contest.robots.iter().filter(|it| it.is_admitted());
     // The same robot under two names plays once.
     let players: BTreeSet<_> = admitted.map(|it| (it.digest, it.variant)).collect();
     let matches_per_maze = players.len() as u64 * u64::from(contest.seeds.count);
@@ -40,17 +40,18 @@ pub(super) fn rank(line: &Standing) -> String {
         .map_or_else(|| NONE.to_owned(), |rank| rank.to_string())
 }
 
-/// The name of a robot, marked when it was rejected; escaped for terminals.
+/// The name of a robot, marked when it played no match; escaped for terminals.
 pub(super) fn robot(contest: &ContestInfo, line: &Standing) -> String {
     let name = escape::for_terminal(&line.robot);
     let mut robots = contest.robots.iter();
     // A robot that has played was not the one of its name that was rejected.
-    let is_rejected = line.matches == 0
-        && robots.any(|robot| robot.name == line.robot && robot.rejection.is_some());
-    if is_rejected {
-        format!("{name} (rejected)")
-    } else {
-        name
+    let is_meant = |it: &&RobotEntry| it.name == line.robot && !it.is_admitted();
+    match robots.find(is_meant) {
+        Some(robot) if line.matches == 0 && robot.rejection.is_some() => {
+            format!("{name} (rejected)")
+        }
+        Some(_) if line.matches == 0 => format!("{name} (not admitted)"),
+        _ => name,
     }
 }
 

@@ -1,7 +1,6 @@
 //! `wasmouse maze generate`: new mazes from a kind and a seed.
 
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 
@@ -190,7 +189,7 @@ fn save_all(
     let interrupted = interrupt::listen()?;
     for (written, generated) in spec.expand().enumerate() {
         let (name, maze) = (generated.to_string(), generated.generate());
-        if interrupted.load(Ordering::Relaxed) {
+        if interrupted.is_set() {
             message!("interrupted: wrote {written} of {count} mazes to {folder}");
             return Ok(Exit::Interrupted);
         }

@@ -102,6 +102,7 @@ impl Host {
             cancelled: &AtomicBool::new(false),
             wanted: &|_| true,
             progress: &|| (),
+            robot_time: None,
         };
         run(&plan, &self.executor, &options, sink).map_err(|error| error.to_string())
     }
