@@ -13,6 +13,7 @@ use std::process::{Child, Command, Output, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use wasmouse::contest::Results;
 use wasmouse_engine::bundled::find;
 use wasmouse_tests::program::{Program, signal};
 
@@ -307,6 +308,81 @@ impl Drop for SmallDisk {
     fn drop(&mut self) {
         let _ = Command::new("umount").arg(&self.0).status();
     }
+}
+
+/// There is no place for the compiled code of untrusted robots, so those cannot be admitted. The
+/// others play, are played a second time, and are verified.
+#[test]
+fn a_robot_that_cannot_be_admitted_costs_nobody_else_anything() {
+    let program = program();
+    let command = |arguments: &[&str]| {
+        let mut command = program.command();
+        command.args(arguments);
+        command
+    };
+    let robots = ["flood-file.wasm", "wall-follower", "test_maze_01"];
+    let run = ["run", "--json", "--jobs=1"];
+    let records = |output: &Output, robot: &str| {
+        let results: Results = serde_json::from_slice(&output.stdout).expect("complete JSON");
+        let mut robots = results.contest.robots.iter();
+        let robot = robots.find(|it| it.name.starts_with(robot));
+        let robot = robot.expect("it was given");
+        let failure = robot.failure.clone().unwrap_or_default();
+        let matches = results.matches.into_iter();
+        let records = matches.filter(|it| it.key.robot == robot.digest);
+        (failure, records.collect::<Vec<_>>())
+    };
+    let both = command(&run)
+        .args(robots)
+        .args(["--cache", "kept"])
+        .output();
+    let both = both.expect("it runs");
+    assert!(both.status.success(), "{}", text(&both.stderr));
+
+    // Nowhere from the beginning.
+    let mut nowhere = command(&run);
+    nowhere
+        .args(robots)
+        .arg("--no-cache")
+        .env("TMPDIR", "/nonexistent");
+    let nowhere = nowhere.output().expect("it runs");
+    let stderr = text(&nowhere.stderr);
+    assert_eq!(nowhere.status.code(), Some(5), "{stderr}");
+    let message = "error: `flood-file` could not be admitted: failed to store compiled code: ";
+    assert!(stderr.contains(message), "{stderr}");
+    let (failure, played) = records(&nowhere, "flood-file");
+    assert!(failure.starts_with("failed to store compiled code: "));
+    assert_eq!(played, []);
+    assert_eq!(
+        records(&nowhere, "wall-follower"),
+        records(&both, "wall-follower")
+    );
+
+    // The first time there is a cache. The second time is on one job, so that the bundled robot
+    // needs no workers.
+    let mut again = command(&["run", "--json", "--jobs=2"]);
+    again.args(robots).args(["--cache", "kept", "--reproduce"]);
+    let again = again
+        .env("TMPDIR", "/nonexistent")
+        .output()
+        .expect("it runs");
+    let stderr = text(&again.stderr);
+    assert_eq!(again.status.code(), Some(5), "{stderr}");
+    assert_eq!(text(&again.stdout), text(&both.stdout));
+    assert!(stderr.contains(message), "{stderr}");
+    let end = "error: 1 of 2 matches could not be played a second time\n";
+    assert!(stderr.ends_with(end), "{stderr}");
+
+    fs::write(program.folder().join("results.json"), &both.stdout).expect("a file");
+    let mut verified = command(&["verify", "results.json", "--robot=flood-file.wasm"]);
+    verified
+        .args(["--no-cache", "--jobs=2"])
+        .env("TMPDIR", "/nonexistent");
+    let verified = verified.output().expect("it runs");
+    let stdout = text(&verified.stdout);
+    assert_eq!(verified.status.code(), Some(5), "{stdout}");
+    let expected = "`flood-file` could not be admitted: failed to store compiled code: ";
+    assert!(stdout.contains(expected), "{stdout}");
 }
 
 /// There is no room for results: the command fails with a message and leaves no partial file.

@@ -13,6 +13,8 @@ use serde_json::Value;
 use wasmouse::contest::Results;
 use wasmouse_core::Digest;
 
+use wasmouse_tests::slow::pointer_chaser;
+
 use crate::binary::{stdout_of, wasmouse};
 
 /// Waits until something is so.
@@ -199,4 +201,33 @@ fn an_interrupted_verification_does_not_verify() {
     let reason = file["reason"].as_str().expect("a reason");
     assert!(reason.starts_with("interrupted after "), "{reason}");
     assert_eq!(file["differences"].as_array().map(Vec::len), Some(0));
+}
+
+/// The slow robot plays for minutes; workers are killed, and matches in this process end.
+#[test]
+fn a_match_in_progress_is_not_waited_for() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let robot = folder.path().join("chaser.wasm");
+    fs::write(&robot, pointer_chaser()).expect("a file");
+    let robot = robot.to_str().expect("UTF-8");
+    for mode in ["--require-sandbox", "--trust"] {
+        let arguments = ["run", robot, "gen:tree:12:1..=3", "--json", "--no-cache"];
+        let child = start(&[&arguments[..], &["--jobs=2", mode]].concat());
+        wait("matches begin", || has_thread(child.id(), "matches-"));
+        thread::sleep(Duration::from_secs(1));
+        let interrupted = Instant::now();
+        interrupt(&child);
+        let output = child.wait_with_output().expect("the program ends");
+        let waited = interrupted.elapsed();
+        assert!(
+            waited < Duration::from_secs(15),
+            "{mode}: it took {waited:?}"
+        );
+        println!("{mode}: ended {waited:?} after Ctrl-C");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(130), "{mode}: {stderr}");
+        let results: Results = serde_json::from_slice(&output.stdout).expect("complete JSON");
+        assert_eq!(results.matches.len(), 0, "{mode}");
+        assert_eq!(results.summary.failures.len(), 0, "{mode}");
+    }
 }

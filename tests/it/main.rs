@@ -73,6 +73,8 @@ mod shared;
 mod shortages;
 /// A host that is short of memory or descriptors.
 mod shortage;
+/// Robots that take very long for their fuel.
+mod slow;
 /// Optimal paths and the oracle scores of the official mazes.
 mod solver;
 /// Results on standard output, and pipes that close.

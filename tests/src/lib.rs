@@ -9,4 +9,5 @@ pub mod corpus;
 pub mod fuzz;
 pub mod module;
 pub mod program;
+pub mod slow;
 pub mod wasm_target;
