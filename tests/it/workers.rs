@@ -165,6 +165,21 @@ fn a_worker_that_hangs_is_an_infrastructure_error() {
     assert_eq!(records(played, Some(HANG)).len(), 2);
 }
 
+/// A robot that has taken over its worker has no other robot there.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_worker_runs_one_robot() {
+    let program = Program::new(Path::new(WORKER)).expect("a folder beside the worker");
+    let executor = sandboxed(program.folder().join("wasmouse"), None).expect("a worker starts");
+    for round in 0..2 {
+        for (played, robot) in ["flood", "dfs", "random"].into_iter().enumerate() {
+            play(&executor, &mazes()[..1], &[robot], &[0]);
+            let expected = if round == 0 { played + 1 } else { 3 };
+            assert_eq!(program.processes().len(), expected, "{robot}");
+        }
+    }
+}
+
 /// Stopped from outside, so that it does not read what does not fit into the pipe.
 #[cfg(target_os = "linux")]
 #[test]

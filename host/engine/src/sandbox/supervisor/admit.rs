@@ -36,6 +36,21 @@ impl Admitter<'_> {
         &self,
         bytes: &[u8],
     ) -> Result<Result<SandboxedRobot, Rejection>, InfrastructureError> {
+        match self.try_admit(bytes) {
+            // Perhaps the machine lacks what idle workers have.
+            Err(InfrastructureError::Worker { .. } | InfrastructureError::Store(_))
+                if self.pool.end_idle() =>
+            {
+                self.try_admit(bytes)
+            }
+            admitted => admitted,
+        }
+    }
+
+    fn try_admit(
+        &self,
+        bytes: &[u8],
+    ) -> Result<Result<SandboxedRobot, Rejection>, InfrastructureError> {
         if let Err(rejection) = check_size(bytes, &self.pool.limits) {
             return Ok(Err(rejection));
         }
@@ -163,16 +178,19 @@ impl Admitter<'_> {
             tries += 1;
             let exit = match worker.load(digest, &code) {
                 Ok(loaded) => {
-                    self.pool.put(worker);
-                    return Ok(match loaded {
-                        Some(Loaded::Damaged) => Attempt::Damaged,
-                        Some(Loaded::Unloadable(text)) => Attempt::Unloadable(text.into()),
-                        Some(Loaded::Rejected(text)) => Attempt::Rejected(text.into()),
-                        Some(Loaded::Ready(requirements)) => {
-                            Attempt::Loaded(robot(digest, code, cache, requirements))
+                    // A worker that has read anything else is not used for another robot.
+                    let requirements = match loaded {
+                        Some(Loaded::Damaged) => return Ok(Attempt::Damaged),
+                        Some(Loaded::Unloadable(text)) => {
+                            return Ok(Attempt::Unloadable(text.into()));
                         }
-                        None => Attempt::Loaded(robot(digest, code, cache, None)),
-                    });
+                        Some(Loaded::Rejected(text)) => return Ok(Attempt::Rejected(text.into())),
+                        Some(Loaded::Ready(requirements)) => requirements,
+                        None => None,
+                    };
+                    self.pool.put(worker);
+                    let robot = robot(digest, code, cache, requirements);
+                    return Ok(Attempt::Loaded(robot));
                 }
                 Err(error) => worker.reap(&error),
             };

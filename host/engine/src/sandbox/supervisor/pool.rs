@@ -20,9 +20,14 @@ use crate::error::InfrastructureError;
 use crate::limits::Limits;
 use crate::runtime::CompiledCode;
 
-/// Robots that a worker keeps. In a contest they take turns, maze by maze; loading one again
+/// Robots that a shared worker keeps. In a contest they take turns, maze by maze; loading one again
 /// takes 0.1 ms, or 26 ms and 60 MB for a Python robot.
 const ROBOT_SLOTS: usize = 8;
+
+/// Idle workers that are kept for their robots, so that no worker runs two robots: one takes 3 MB,
+/// and starting one takes as long as some ten matches. With more robots than this, workers are
+/// shared.
+const IDLE_MAX: usize = 32;
 
 /// Mazes that a worker keeps, of a few kilobytes each.
 const MAZE_SLOTS: usize = 1024;
@@ -58,13 +63,17 @@ impl Pool {
         }
     }
 
-    /// A worker: an idle one that has the robot, else another idle one, else a new one.
+    /// A worker: an idle one that has the robot, else one that has none, else a new one. When
+    /// too many are idle, it is the one that has been so for longest, whatever it has run.
     pub(super) fn take(&self, robot: &Digest) -> Result<RunWorker, InfrastructureError> {
         let idle = {
             let mut idle = self.lock();
-            match idle.iter().position(|worker| worker.robots.has(robot)) {
-                Some(index) => Some(idle.swap_remove(index)),
-                None => idle.pop(),
+            let own = idle.iter().position(|worker| worker.robots.has(robot));
+            let index = own.or_else(|| idle.iter().position(|worker| worker.robots.is_empty()));
+            match index {
+                Some(index) => Some(idle.remove(index)),
+                None if idle.len() >= IDLE_MAX => Some(idle.remove(0)),
+                None => None,
             }
         };
         match idle {
@@ -78,9 +87,24 @@ impl Pool {
         self.lock().push(worker);
     }
 
+    /// Ends all idle workers, which may have what the machine lacks: descriptors, memory. Says
+    /// whether there was any.
+    pub(super) fn end_idle(&self) -> bool {
+        let idle = std::mem::take(&mut *self.lock());
+        !idle.is_empty()
+    }
+
+    /// Starts a worker; if need be, in the place of idle ones.
+    pub(super) fn start(&self) -> Result<RunWorker, InfrastructureError> {
+        match self.start_once() {
+            Err(InfrastructureError::Worker { .. }) if self.end_idle() => self.start_once(),
+            started => started,
+        }
+    }
+
     /// Starts a worker; another one when that is killed from outside before it has sent
     /// anything.
-    pub(super) fn start(&self) -> Result<RunWorker, InfrastructureError> {
+    fn start_once(&self) -> Result<RunWorker, InfrastructureError> {
         let mut starts = 0;
         loop {
             starts += 1;
@@ -253,6 +277,10 @@ impl Slots {
             by_digest: HashMap::new(),
             next: 0,
         }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.by_digest.is_empty()
     }
 
     fn has(&self, digest: &Digest) -> bool {
