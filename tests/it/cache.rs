@@ -1,5 +1,5 @@
-//! The cache of compiled robots never changes a result: not when it is damaged, unusable, full
-//! or writable by others. In this process as in workers.
+//! The cache of compiled robots never changes a result: not when it is damaged, exchanged,
+//! unusable, full or somebody else's. In this process as in workers.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -14,6 +14,7 @@ use wasmouse_engine::{
     Cache, CacheUse, Executor, InProcess, InfrastructureError, Limits, WASMTIME_VERSION,
 };
 
+use crate::hostile::wasm;
 use crate::matches::{WORKER, bundled_mazes, rules, sandboxed, spec};
 
 /// Makes an executor with that cache.
@@ -31,8 +32,12 @@ const EXECUTORS: [(&str, New); 2] = [
 
 /// Where a new executor got the code of a robot from, and the record of a match.
 fn play(new: New, cache: Option<&Path>) -> (CacheUse, MatchRecord) {
+    play_robot("dfs", new, cache)
+}
+
+fn play_robot(name: &str, new: New, cache: Option<&Path>) -> (CacheUse, MatchRecord) {
     let executor = new(cache.map(|folder| Cache::open(folder).expect("a cache")));
-    let component = find("dfs").expect("a bundled robot").component;
+    let component = find(name).expect("a bundled robot").component;
     let robot = executor.admit(component).expect("the host works");
     let robot = robot.expect("a bundled robot");
     let (_, maze) = &bundled_mazes()[0];
@@ -56,8 +61,11 @@ fn folder() -> TempDir {
     tempfile::tempdir().expect("a temporary folder")
 }
 
-/// Bytes of an entry before its code: the digest of the code.
-const DIGEST_BYTES: usize = 32;
+/// Bytes of an entry before its code: what it is about, and the digest of that.
+const HEADER_BYTES: usize = SEALED_BYTES + 32;
+
+/// Bytes that the header's own digest covers; the last of them are the digest of the code.
+const SEALED_BYTES: usize = 128;
 
 /// Changes the version of wasmtime in the code: its first number, behind the version of the
 /// format and a length.
@@ -69,29 +77,31 @@ fn change_version(entry: &mut [u8]) {
     entry[found.expect("the code has a version") + 2] ^= 1;
 }
 
-/// Makes the digest that of the damaged code: then only wasmtime can tell.
+/// Makes the digests those of the damaged code: then only wasmtime can tell.
 fn fix_digest(entry: &mut [u8]) {
-    let (digest, code) = entry.split_at_mut(DIGEST_BYTES);
-    digest.copy_from_slice(Digest::of(code).as_bytes());
+    let (header, code) = entry.split_at_mut(HEADER_BYTES);
+    let (sealed, seal) = header.split_at_mut(SEALED_BYTES);
+    sealed[SEALED_BYTES - 32..].copy_from_slice(Digest::of(code).as_bytes());
+    seal.copy_from_slice(Digest::of(sealed).as_bytes());
 }
 
 type Damage = fn(&mut Vec<u8>);
 
 const DAMAGES: [(&str, Damage); 10] = [
     ("first byte", |it| it[0] ^= 1),
-    ("first byte of the code", |it| it[DIGEST_BYTES] ^= 0x80),
+    ("first byte of the code", |it| it[HEADER_BYTES] ^= 0x80),
     ("last byte", |it| *it.last_mut().expect("bytes") ^= 1),
     ("one byte less", |it| it.truncate(it.len() - 1)),
     ("one byte more", |it| it.push(0)),
     ("half of it", |it| it.truncate(it.len() / 2)),
-    ("half a digest", |it| it.truncate(DIGEST_BYTES / 2)),
+    ("half a header", |it| it.truncate(HEADER_BYTES / 2)),
     ("nothing", Vec::clear),
     ("another version of wasmtime", |it| {
         change_version(it);
         fix_digest(it);
     }),
     ("no code at all", |it| {
-        it[DIGEST_BYTES..].fill(0x5a);
+        it[HEADER_BYTES..].fill(0x5a);
         fix_digest(it);
     }),
 ];
@@ -139,6 +149,152 @@ fn damaged_entries_are_replaced() {
             check(&damaged, &format!("bit {bit}"));
         }
     }
+}
+
+/// Who exchanges two entries gets neither robot to play under the name of the other.
+#[test]
+fn exchanged_entries_are_replaced() {
+    for (name, new) in EXECUTORS {
+        let folder = folder();
+        let cache = folder.path().join("cache");
+        let cached = |robot| play_robot(robot, new, Some(&cache));
+        let (_, dfs) = cached("dfs");
+        let (_, flood) = cached("flood");
+        assert_ne!(
+            dfs.verdict, flood.verdict,
+            "two robots that can be told apart"
+        );
+        let good = entries(&cache);
+        let [first, second] = &Vec::from_iter(&good)[..] else {
+            panic!("{} entries", good.len());
+        };
+        fs::write(first.0, second.1).expect("an entry");
+        fs::write(second.0, first.1).expect("an entry");
+        assert_eq!(cached("dfs"), (CacheUse::Stored, dfs), "{name}");
+        assert_eq!(cached("flood"), (CacheUse::Stored, flood), "{name}");
+        assert!(entries(&cache) == good, "{name}: not replaced");
+    }
+}
+
+/// Nothing is read but a regular file of the size that its header says.
+#[cfg(target_os = "linux")]
+#[test]
+fn an_entry_that_is_no_file_is_replaced() {
+    for (name, new) in EXECUTORS {
+        let folder = folder();
+        let cache = folder.path().join("cache");
+        let (_, expected) = play(new, Some(&cache));
+        let good = entries(&cache);
+        let [(path, content)] = &Vec::from_iter(&good)[..] else {
+            panic!("{} entries", good.len());
+        };
+        let elsewhere = folder.path().join("elsewhere");
+        fs::write(&elsewhere, content).expect("a file");
+        let replace: [(&str, &dyn Fn()); 5] = [
+            ("a FIFO", &|| {
+                rustix::fs::mknodat(
+                    rustix::fs::CWD,
+                    path.as_path(),
+                    rustix::fs::FileType::Fifo,
+                    rustix::fs::Mode::RWXU,
+                    0,
+                )
+                .expect("a FIFO");
+            }),
+            ("a link to a good entry", &|| {
+                std::os::unix::fs::symlink(&elsewhere, path).expect("a link");
+            }),
+            ("a sparse file of 100 GB", &|| {
+                let file = fs::File::create(path).expect("a file");
+                file.set_len(100_000_000_000).expect("a sparse file");
+            }),
+            ("a good entry, and a hole of 100 GB", &|| {
+                fs::copy(&elsewhere, path).expect("a file");
+                let file = fs::File::options().write(true).open(path);
+                let file = file.expect("a file");
+                file.set_len(100_000_000_000).expect("a sparse file");
+            }),
+            ("one that others may change", &|| {
+                use std::os::unix::fs::PermissionsExt as _;
+                fs::copy(&elsewhere, path).expect("a file");
+                fs::set_permissions(path, fs::Permissions::from_mode(0o666)).expect("my file");
+            }),
+        ];
+        for (what, replace) in replace {
+            fs::remove_file(path).expect("the entry");
+            replace();
+            let found = play(new, Some(&cache));
+            assert_eq!(
+                found,
+                (CacheUse::Stored, expected.clone()),
+                "{name}: {what}"
+            );
+            let kind = fs::symlink_metadata(path).expect("an entry").file_type();
+            assert!(kind.is_file(), "{name}: {what}: not replaced");
+            assert!(entries(&cache) == good, "{name}: {what}: not replaced");
+        }
+    }
+}
+
+#[test]
+fn a_cache_has_a_largest_size() {
+    for (name, new) in EXECUTORS {
+        let folder = folder();
+        let path = folder.path().join("cache");
+        play_robot("dfs", new, Some(&path));
+        play_robot("flood", new, Some(&path));
+        let size: usize = entries(&path).values().map(Vec::len).sum();
+        // Room for one of them, and then for none.
+        for (room, left) in [(size - 1, 1), (0, 0)] {
+            let cache = Cache::open(&path).expect("a cache");
+            let executor = new(Some(cache.with_size_max(room as u64)));
+            let component = find("wall-follower").expect("a bundled robot").component;
+            let robot = executor.admit(component).expect("the host works");
+            robot.expect("a bundled robot");
+            let kept: usize = entries(&path).values().map(Vec::len).sum();
+            assert!(kept <= room, "{name}: {kept} of {room} bytes");
+            assert!(entries(&path).len() >= left, "{name}: all of it is gone");
+            fs::remove_dir_all(&path).expect("a folder");
+        }
+    }
+}
+
+/// What the compiler gives up on is not given to it again.
+#[cfg(target_os = "linux")]
+#[test]
+fn rejections_are_kept() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let folder = folder();
+    let (log, worker) = (folder.path().join("log"), folder.path().join("worker"));
+    let script = format!(
+        "#!/bin/sh\necho \"$2\" >> '{}'\nexec '{WORKER}' \"$@\"\n",
+        log.display()
+    );
+    fs::write(&worker, script).expect("a file");
+    fs::set_permissions(&worker, fs::Permissions::from_mode(0o700)).expect("my file");
+    let bad = wasm("(component)");
+    let reject = |cache: Cache| {
+        fs::write(&log, "").expect("a file");
+        let executor = sandboxed(&worker, Some(cache)).expect("a worker starts");
+        let admission = executor.admit(&bad).expect("the host works");
+        let rejection = admission.err().expect("it exports nothing");
+        let text = format!("{}: {rejection} ({})", rejection.name(), rejection.hint());
+        let log = fs::read_to_string(&log).expect("a log");
+        (text, log.lines().filter(|role| *role == "compile").count())
+    };
+    let path = folder.path().join("cache");
+    let open = || Cache::open(&path).expect("a cache");
+    let (text, compiled) = reject(open());
+    assert!(text.starts_with("no-controller: "), "{text}");
+    assert_eq!(compiled, 1);
+    assert_eq!(reject(open()), (text.clone(), 0));
+    // One that is damaged is not believed.
+    for (path, mut content) in entries(&path) {
+        *content.last_mut().expect("a hint") ^= 1;
+        fs::write(path, content).expect("my file");
+    }
+    assert_eq!(reject(open()), (text.clone(), 1));
+    assert_eq!(reject(open()), (text, 0));
 }
 
 /// Plays with a cache that cannot store the robot, and returns the reason.
@@ -208,6 +364,41 @@ fn a_cache_that_others_may_write_to_is_not_used() {
             "{error}"
         );
     }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_cache_of_another_user_is_not_used() {
+    let folder = folder();
+    let own = folder.path().join("cache");
+    Cache::open(&own).expect("a new folder");
+    // Only root can give a folder away; everybody else is not the owner of this one.
+    let path = match std::os::unix::fs::chown(&own, Some(65534), None) {
+        Ok(()) => own,
+        Err(_) => PathBuf::from("/usr"),
+    };
+    let error = Cache::open(&path).expect_err("somebody else's");
+    assert!(
+        error.to_string().contains("it belongs to another user"),
+        "{error}"
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn a_cache_that_others_may_replace_is_not_used() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let folder = folder();
+    let above = folder.path().join("above");
+    fs::create_dir(&above).expect("a folder");
+    let open = |mode| {
+        fs::set_permissions(&above, fs::Permissions::from_mode(mode)).expect("my folder");
+        Cache::open(above.join("cache"))
+    };
+    let error = open(0o777).expect_err("everyone may rename it");
+    assert!(error.to_string().contains("a folder above it"), "{error}");
+    open(0o1777).expect("only I may rename it");
+    open(0o755).expect("only I may rename it");
 }
 
 /// The robot is compiled each time, and nothing half written stays.

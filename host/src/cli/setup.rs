@@ -29,12 +29,17 @@ pub struct SetupArgs {
 /// What robots are run with, whatever the rules.
 #[derive(clap::Args, Debug)]
 pub struct EngineArgs {
-    /// Number of matches to play in parallel [default: number of cores]
+    /// Number of matches to play in parallel, at most 1024 [default: number of cores]
     #[arg(long, short, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
     /// Cache directory for compiled robots [default: the user's cache directory]
     #[arg(long, value_name = "DIR", env = "WASMOUSE_CACHE")]
     cache: Option<PathBuf>,
+    /// Largest size of the cache in MiB; what was not used for the longest time is removed
+    #[arg(long, value_name = "MIB", env = "WASMOUSE_CACHE_SIZE",
+          default_value_t = Cache::SIZE_MAX_DEFAULT >> 20,
+          value_parser = clap::value_parser!(u64).range(0..=1 << 30))]
+    cache_size: u64,
     /// Disable the compilation cache (overrides --cache)
     // No conflict with `--cache`: clap would also see one in WASMOUSE_CACHE.
     #[arg(long)]
@@ -167,9 +172,9 @@ impl EngineArgs {
                 .join("robots"),
         };
         match Cache::open(folder) {
-            Ok(cache) => Some(cache),
+            Ok(cache) => Some(cache.with_size_max(self.cache_size << 20)),
             Err(error) => {
-                message!("warning: {error}; robots are compiled again each time");
+                message!("warning: {}; robots are compiled again each time", error);
                 None
             }
         }

@@ -23,6 +23,7 @@ pub(crate) use examine::check_size;
 pub use examine::{Examination, examine};
 pub use inspection::{Inspection, ResourceRequirements, world};
 pub use place::{FunctionPlace, Place};
+pub(crate) use rejection::OUT_OF_PROCESSOR_TIME;
 pub use rejection::Rejection;
 pub use version::VERSION as INTERFACE_VERSION;
 pub(crate) use version::{CONTROLLER, JOURNAL};

@@ -5,6 +5,9 @@ use super::names::list;
 use super::place::Place;
 use super::version::{COMPATIBLE, CONTROLLER, REBUILD};
 
+/// How the reason ends why a file cannot be compiled that takes too much processor time.
+pub(crate) const OUT_OF_PROCESSOR_TIME: &str = "s of processor time";
+
 /// Why a file was not admitted. Says nothing about how the robot would play.
 #[derive(Debug, thiserror::Error)]
 pub enum Rejection {
@@ -83,6 +86,16 @@ impl Rejection {
             Self::OverLimit { .. } => "over-limit",
             Self::Uncompilable(_) => "uncompilable",
             Self::Reported { name, .. } => name,
+        }
+    }
+
+    /// Whether the same host would reject the same file again. All but one kind depend on the
+    /// file and the limits alone; a compiler that crashed or ran out of memory may have been on a
+    /// machine that was short of it.
+    pub(crate) fn is_repeatable(&self) -> bool {
+        match self {
+            Self::Uncompilable(reason) => reason.ends_with(OUT_OF_PROCESSOR_TIME),
+            _ => true,
         }
     }
 

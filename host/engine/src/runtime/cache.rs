@@ -1,177 +1,192 @@
-//! [`Cache`]: compiled robots on disk.
+//! [`Cache`]: compiled robots on disk, and rejected files.
 //!
 //! Compiling takes milliseconds for a small robot and ten seconds for a large
-//! interpreter; loading what was compiled before takes microseconds. An entry
-//! is named by the content of the component and everything that wasmtime says
-//! decides the code, is written atomically, and carries a digest that is checked
-//! before wasmtime sees the bytes: loading machine code is only safe when this
-//! host made it. The folder is private to the user for the same reason.
+//! interpreter; loading what was compiled before takes microseconds. A file that the compiler
+//! gives up on costs as much each time, so rejections are kept too. An entry is bound to the
+//! file that it is about and to everything that decides what comes of it (`entry`), and is
+//! written atomically to a folder that nobody else can change (`cache_folder`): loading machine
+//! code is only safe when this host made it.
 
-use std::fs;
-use std::hash::{Hash, Hasher};
-use std::io::{self, Write as _};
-use std::path::{Path, PathBuf};
+use std::io::{self, Read as _, Write as _};
+use std::path::PathBuf;
 
-use sha2::{Digest as _, Sha256};
+use serde::{Deserialize, Serialize};
+use wasmouse_core::Digest;
 use wasmtime::Engine;
 use wasmtime::component::Component;
 
-use wasmouse_core::Digest;
-
 use super::artefact;
+use super::cache_folder::{CacheFolder, SIZE_MAX_DEFAULT};
 use super::compiled_code::{CompiledCode, Destination};
+use super::entry::{EntryKey, EntryKind, Payload};
+use crate::admission::Rejection;
 use crate::error::InfrastructureError;
+use crate::limits::Limits;
 
-/// A folder of compiled robots.
+/// A folder of compiled robots and rejections.
 #[derive(Clone, Debug)]
 pub struct Cache {
-    folder: PathBuf,
+    folder: CacheFolder,
 }
 
-const DIGEST_BYTES: usize = 32;
-
 impl Cache {
+    /// What a cache may take unless [`Cache::with_size_max`] says otherwise: 2 GiB, in bytes.
+    pub const SIZE_MAX_DEFAULT: u64 = SIZE_MAX_DEFAULT;
+
     /// The cache in that folder, which is created private to the user.
     ///
     /// # Errors
     ///
-    /// When the folder cannot be created, or others may write to it: they could
-    /// put machine code there.
+    /// When the folder cannot be created, belongs to another user, or others may write to it:
+    /// they could put machine code there.
     pub fn open(folder: impl Into<PathBuf>) -> Result<Self, InfrastructureError> {
-        let folder = folder.into();
-        match private_folder(&folder) {
-            Ok(()) => Ok(Self { folder }),
+        let path = folder.into();
+        match CacheFolder::open(&path) {
+            Ok(folder) => Ok(Self { folder }),
             Err(error) => Err(InfrastructureError::Cache {
-                path: folder,
+                path,
                 reason: error.to_string(),
             }),
         }
     }
 
-    /// The compiled form of that component, when an intact one is there.
-    pub(crate) fn load(&self, engine: &Engine, component: &Digest) -> Option<Component> {
-        let path = self.entry(engine, component);
-        let bytes = fs::read(&path).ok()?;
-        let loaded = checked_payload(&bytes).and_then(|payload| {
-            // SAFETY: the bytes are what `store` wrote: the folder is private to
-            // this user, the digest fits, and the name includes wasmtime's own
-            // hash of everything that the code depends on.
-            let loaded = unsafe { artefact::load(engine, payload) }.ok()?;
-            Some(loaded.0)
-        });
+    /// The same cache, which takes at most that many bytes: whenever something is stored,
+    /// entries that were not used for the longest time are removed until the rest fits. With 0
+    /// nothing stays.
+    #[must_use]
+    pub fn with_size_max(self, bytes: u64) -> Self {
+        Self {
+            folder: self.folder.with_size_max(bytes),
+        }
+    }
+
+    /// What that engine keeps about that file under these limits.
+    pub(crate) fn entry<'a>(
+        &'a self,
+        engine: &'a Engine,
+        limits: &Limits,
+        component: &Digest,
+    ) -> CacheEntry<'a> {
+        CacheEntry {
+            folder: &self.folder,
+            engine,
+            key: EntryKey::new(engine, limits, component),
+        }
+    }
+}
+
+/// What is kept, or can be kept, about one file.
+pub(crate) struct CacheEntry<'a> {
+    folder: &'a CacheFolder,
+    engine: &'a Engine,
+    key: EntryKey,
+}
+
+/// A rejection as it is stored.
+#[derive(Serialize, Deserialize)]
+struct StoredRejection {
+    name: String,
+    reason: String,
+    hint: String,
+}
+
+impl CacheEntry<'_> {
+    /// The compiled form, when an intact one is there.
+    pub(crate) fn load(&self) -> Option<Component> {
+        let code = self.payload(EntryKind::Code)?;
+        // SAFETY: the bytes are what `store` or a compile worker of this build wrote for this
+        // file: the folder and the entry are the user's alone, and the header, whose digest
+        // includes that of the code, names the file and all that the code depends on.
+        let loaded = unsafe { artefact::load(self.engine, &code) }.ok();
+        let loaded = loaded.map(|(component, _)| component);
         if loaded.is_none() {
-            // Damaged, by a crash or a bad disk: make room for a good one. If
-            // that fails the next `store` replaces it.
-            let _ = fs::remove_file(&path);
+            self.forget_code();
         }
         loaded
     }
 
-    /// The compiled code of that component, unread and unchecked, when there is some.
-    pub(crate) fn open_code(&self, engine: &Engine, component: &Digest) -> Option<CompiledCode> {
-        CompiledCode::open(&self.entry(engine, component))
+    /// The compiled code, unread and unchecked, when there is some.
+    pub(crate) fn open_code(&self) -> Option<CompiledCode> {
+        let (file, payload) = self.folder.entry(EntryKind::Code, &self.key)?;
+        Some(CompiledCode::new(file, payload))
     }
 
-    /// A place for the compiled code of that component.
-    pub(crate) fn destination(
-        &self,
-        engine: &Engine,
-        component: &Digest,
-    ) -> io::Result<Destination> {
-        Destination::kept(&self.folder, self.entry(engine, component))
+    /// A place for compiled code.
+    pub(crate) fn destination(&self) -> io::Result<Destination> {
+        Destination::kept(self.folder.clone(), self.key)
     }
 
-    /// Removes what is kept of that component: it is damaged.
-    pub(crate) fn forget(&self, engine: &Engine, component: &Digest) {
-        // If that fails the next one replaces it.
-        let _ = fs::remove_file(self.entry(engine, component));
+    /// Removes the compiled code: it is damaged.
+    pub(crate) fn forget_code(&self) {
+        self.folder.forget(EntryKind::Code, &self.key);
     }
 
-    /// The error of a cache that cannot keep something.
-    pub(crate) fn failure(&self, reason: String) -> InfrastructureError {
-        InfrastructureError::Cache {
-            path: self.folder.clone(),
-            reason,
+    /// Why the file was rejected, when it was.
+    pub(crate) fn rejection(&self) -> Option<Rejection> {
+        let bytes = self.payload(EntryKind::Rejection)?;
+        let StoredRejection { name, reason, hint } = postcard::from_bytes(&bytes).ok()?;
+        Some(Rejection::Reported { name, reason, hint })
+    }
+
+    /// Keeps a rejection for the next time, if it would be the same then. One that depends on
+    /// the load of the machine is not kept.
+    pub(crate) fn keep_rejection(&self, rejection: &Rejection) {
+        if !rejection.is_repeatable() {
+            return;
+        }
+        let stored = StoredRejection {
+            name: rejection.name().to_owned(),
+            reason: rejection.to_string(),
+            hint: rejection.hint().to_owned(),
+        };
+        let bytes = postcard::to_stdvec(&stored).expect("texts can be written to memory");
+        if bytes.len() as u64 <= EntryKind::Rejection.bytes_max() {
+            // Without it, the file is examined again.
+            let _ = self.write(EntryKind::Rejection, &bytes);
         }
     }
 
     /// Keeps a compiled component for the next time.
     pub(crate) fn store(
         &self,
-        engine: &Engine,
-        digest: &Digest,
         component: &Component,
         startup_fuel: u64,
     ) -> Result<(), InfrastructureError> {
-        let path = self.entry(engine, digest);
-        let failed = |reason: String| InfrastructureError::Cache {
-            path: path.clone(),
-            reason,
-        };
         let code = component
             .serialize()
-            .map_err(|error| failed(format!("{error:#}")))?;
-        let payload = artefact::seal(code, startup_fuel);
-        write_atomically(&self.folder, &path, &payload).map_err(|error| failed(error.to_string()))
+            .map_err(|error| self.failure(format!("{error:#}")))?;
+        self.write(EntryKind::Code, &artefact::seal(code, startup_fuel))
+            .map_err(|error| self.failure(error.to_string()))
     }
 
-    /// The file for that component compiled by that engine.
-    fn entry(&self, engine: &Engine, component: &Digest) -> PathBuf {
-        let mut hasher = Sha256Hasher(Sha256::new());
-        engine.precompile_compatibility_hash().hash(&mut hasher);
-        hasher.0.update(component.as_bytes());
-        let key: [u8; DIGEST_BYTES] = hasher.0.finalize().into();
-        self.folder.join(format!("{}.cwasm", Digest::of(&key)))
-    }
-}
-
-fn checked_payload(bytes: &[u8]) -> Option<&[u8]> {
-    let (digest, payload) = bytes.split_at_checked(DIGEST_BYTES)?;
-    (Digest::of(payload).as_bytes() == digest).then_some(payload)
-}
-
-fn write_atomically(folder: &Path, path: &Path, payload: &[u8]) -> io::Result<()> {
-    let mut file = tempfile::NamedTempFile::new_in(folder)?;
-    file.write_all(Digest::of(payload).as_bytes())?;
-    file.write_all(payload)?;
-    file.persist(path)?;
-    Ok(())
-}
-
-#[cfg(unix)]
-fn private_folder(folder: &Path) -> io::Result<()> {
-    use std::os::unix::fs::{DirBuilderExt as _, PermissionsExt as _};
-
-    fs::DirBuilder::new()
-        .recursive(true)
-        .mode(0o700)
-        .create(folder)?;
-    let mode = fs::metadata(folder)?.permissions().mode();
-    if mode & 0o022 != 0 {
-        return Err(io::Error::other(format!(
-            "others may write to it (mode {:o}); `chmod go-w` it or name another folder",
-            mode & 0o777
-        )));
-    }
-    Ok(())
-}
-
-#[cfg(not(unix))]
-fn private_folder(folder: &Path) -> io::Result<()> {
-    fs::create_dir_all(folder)
-}
-
-/// Lets a value that only knows `Hash` go into a stable digest.
-struct Sha256Hasher(Sha256);
-
-impl Hasher for Sha256Hasher {
-    fn write(&mut self, bytes: &[u8]) {
-        self.0.update(bytes);
+    /// The error of a cache that cannot keep something.
+    pub(crate) fn failure(&self, reason: String) -> InfrastructureError {
+        InfrastructureError::Cache {
+            path: self.folder.path().to_owned(),
+            reason,
+        }
     }
 
-    fn finish(&self) -> u64 {
-        let digest: [u8; DIGEST_BYTES] = self.0.clone().finalize().into();
-        let (first, _) = digest.split_at(8);
-        u64::from_le_bytes(first.try_into().expect("8 of 32 bytes"))
+    /// The payload of an intact entry.
+    fn payload(&self, kind: EntryKind) -> Option<Vec<u8>> {
+        let (file, payload) = self.folder.entry(kind, &self.key)?;
+        let mut bytes = Vec::new();
+        let read = file.take(payload.length).read_to_end(&mut bytes);
+        if read.is_ok() && Digest::of(&bytes) == payload.digest {
+            return Some(bytes);
+        }
+        self.folder.forget(kind, &self.key);
+        None
+    }
+
+    fn write(&self, kind: EntryKind, bytes: &[u8]) -> io::Result<()> {
+        let payload = Payload {
+            length: bytes.len() as u64,
+            digest: Digest::of(bytes),
+        };
+        let mut draft = self.folder.draft()?;
+        draft.write_all(&payload.header(kind, &self.key))?;
+        draft.write_all(bytes)?;
+        self.folder.keep(draft, kind, &self.key).map(drop)
     }
 }

@@ -6,15 +6,14 @@
 
 use std::fs::File;
 use std::io::{self, Read as _, Seek as _, SeekFrom, Write};
-use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use sha2::{Digest as _, Sha256};
 use tempfile::NamedTempFile;
 use wasmouse_core::Digest;
 
-/// Bytes before the code: its digest.
-pub(crate) const HEADER_BYTES: u64 = 32;
+use super::cache_folder::CacheFolder;
+use super::entry::{EntryKey, EntryKind, HEADER_BYTES, Payload};
 
 /// Compiled code, and what it has to be.
 #[derive(Debug)]
@@ -26,17 +25,13 @@ pub(crate) struct CompiledCode {
 }
 
 impl CompiledCode {
-    /// The code in a file of the cache, unread; `None` when there is not even a header.
-    pub(crate) fn open(path: &Path) -> Option<Self> {
-        let mut file = File::open(path).ok()?;
-        let mut digest = [0; 32];
-        file.read_exact(&mut digest).ok()?;
-        let length = file.metadata().ok()?.len().checked_sub(HEADER_BYTES)?;
-        Some(Self {
+    /// The code in an entry of the cache, unread.
+    pub(super) const fn new(file: File, payload: Payload) -> Self {
+        Self {
             file: Mutex::new(file),
-            length,
-            digest: Digest::from_bytes(digest),
-        })
+            length: payload.length,
+            digest: payload.digest,
+        }
     }
 
     /// Writes all of it; the reader on the other side compares the digest.
@@ -60,15 +55,15 @@ impl CompiledCode {
 pub(crate) struct Destination {
     file: NamedTempFile,
     /// Where it goes in the end; `None` for code that is not kept.
-    path: Option<PathBuf>,
+    entry: Option<(CacheFolder, EntryKey)>,
     hasher: Sha256,
     length: u64,
 }
 
 impl Destination {
-    /// A new file in that folder, to be kept under that name.
-    pub(crate) fn kept(folder: &Path, path: PathBuf) -> io::Result<Self> {
-        Self::new(NamedTempFile::new_in(folder)?, Some(path))
+    /// A new file in that folder, to be kept as that entry.
+    pub(super) fn kept(folder: CacheFolder, key: EntryKey) -> io::Result<Self> {
+        Self::new(folder.draft()?, Some((folder, key)))
     }
 
     /// A file that is deleted when nobody uses it any more.
@@ -76,11 +71,11 @@ impl Destination {
         Self::new(NamedTempFile::new()?, None)
     }
 
-    fn new(mut file: NamedTempFile, path: Option<PathBuf>) -> io::Result<Self> {
+    fn new(mut file: NamedTempFile, entry: Option<(CacheFolder, EntryKey)>) -> io::Result<Self> {
         file.write_all(&[0; HEADER_BYTES as usize])?;
         Ok(Self {
             file,
-            path,
+            entry,
             hasher: Sha256::new(),
             length: 0,
         })
@@ -95,20 +90,22 @@ impl Destination {
 
     /// Puts the file in its place when the code is what it should be; `None` when not.
     pub(crate) fn finish(mut self, expected: &Digest) -> io::Result<Option<CompiledCode>> {
-        let digest = Digest::from_bytes(self.hasher.finalize().into());
-        if digest != *expected {
+        let payload = Payload {
+            length: self.length,
+            digest: Digest::from_bytes(self.hasher.finalize().into()),
+        };
+        if payload.digest != *expected {
             return Ok(None);
         }
-        self.file.seek(SeekFrom::Start(0))?;
-        self.file.write_all(digest.as_bytes())?;
-        let file = match self.path {
-            Some(path) => self.file.persist(path)?,
+        let file = match self.entry {
+            Some((folder, key)) => {
+                self.file.seek(SeekFrom::Start(0))?;
+                let header = payload.header(EntryKind::Code, &key);
+                self.file.write_all(&header)?;
+                folder.keep(self.file, EntryKind::Code, &key)?
+            }
             None => self.file.into_file(),
         };
-        Ok(Some(CompiledCode {
-            file: Mutex::new(file),
-            length: self.length,
-            digest,
-        }))
+        Ok(Some(CompiledCode::new(file, payload)))
     }
 }

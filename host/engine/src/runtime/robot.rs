@@ -182,11 +182,12 @@ impl Runtime {
         let Some(cache) = &self.cache else {
             return Ok((self.compile_now(component)?, CacheUse::Off));
         };
-        if let Some(compiled) = cache.load(&self.engine, digest) {
+        let entry = cache.entry(&self.engine, &self.limits, digest);
+        if let Some(compiled) = entry.load() {
             return Ok((compiled, CacheUse::Hit));
         }
         let compiled = self.compile_now(component)?;
-        let cache_use = match cache.store(&self.engine, digest, &compiled, startup_fuel) {
+        let cache_use = match entry.store(&compiled, startup_fuel) {
             Ok(()) => CacheUse::Stored,
             Err(error) => CacheUse::Failed(error.to_string()),
         };

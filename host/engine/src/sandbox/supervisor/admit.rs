@@ -13,7 +13,7 @@ use super::pool::Pool;
 use super::robot::SandboxedRobot;
 use crate::admission::{Inspection, Rejection, ResourceRequirements, check_size};
 use crate::error::InfrastructureError;
-use crate::runtime::{Cache, CacheUse, CompiledCode, Destination};
+use crate::runtime::{Cache, CacheEntry, CacheUse, CompiledCode, Destination};
 
 /// How often a robot is loaded when its worker ends for reasons that may not be the robot's.
 const TRIES: u32 = 4;
@@ -55,24 +55,32 @@ impl Admitter<'_> {
             return Ok(Err(rejection));
         }
         let digest = Digest::of(bytes);
-        if let Some(code) = self.cached(&digest) {
+        let entry = self.entry(&digest);
+        if let Some(entry) = &entry
+            && let Some(code) = entry.open_code()
+        {
             match self.load(&digest, Arc::new(code), CacheUse::Hit)? {
                 Attempt::Loaded(robot) => return Ok(Ok(robot)),
                 Attempt::Rejected(rejection) => return Ok(Err(rejection)),
                 // The entry may be damaged, or of another build; the file is compiled again.
-                Attempt::Damaged | Attempt::Unloadable(_) => {
-                    if let Some(cache) = self.cache {
-                        cache.forget(self.engine, &digest);
-                    }
-                }
+                Attempt::Damaged | Attempt::Unloadable(_) => entry.forget_code(),
             }
         }
-        let (findings, cache) = match self.compile(bytes, &digest)? {
+        if let Some(rejection) = entry.as_ref().and_then(CacheEntry::rejection) {
+            return Ok(Err(rejection));
+        }
+        let rejected = |rejection: Rejection| {
+            if let Some(entry) = &entry {
+                entry.keep_rejection(&rejection);
+            }
+            Ok(Err(rejection))
+        };
+        let (findings, cache) = match self.compile(bytes, entry.as_ref())? {
             Ok(compiled) => compiled,
-            Err(rejection) => return Ok(Err(rejection)),
+            Err(rejection) => return rejected(rejection),
         };
         let code = match (findings.examined.result, findings.code) {
-            (Compiled::Rejected(text), _) => return Ok(Err(text.into())),
+            (Compiled::Rejected(text), _) => return rejected(text.into()),
             (Compiled::Code { .. }, Some(code)) => code,
             _ => return Err(compile_failed("it sent no code".into())),
         };
@@ -80,7 +88,7 @@ impl Admitter<'_> {
             Attempt::Loaded(robot) => Ok(Ok(robot)),
             // The code is what the compile worker made of this file a moment ago, so what is
             // wrong with it is wrong with the file.
-            Attempt::Rejected(rejection) | Attempt::Unloadable(rejection) => Ok(Err(rejection)),
+            Attempt::Rejected(rejection) | Attempt::Unloadable(rejection) => rejected(rejection),
             Attempt::Damaged => Err(compile_failed(
                 "its code was damaged as soon as it was written".into(),
             )),
@@ -123,8 +131,9 @@ impl Admitter<'_> {
         Ok(inspection)
     }
 
-    fn cached(&self, digest: &Digest) -> Option<CompiledCode> {
-        self.cache?.open_code(self.engine, digest)
+    fn entry(&self, digest: &Digest) -> Option<CacheEntry<'_>> {
+        let cache = self.cache?;
+        Some(cache.entry(self.engine, &self.pool.limits, digest))
     }
 
     const fn compiler(&self) -> Compiler<'_> {
@@ -138,7 +147,7 @@ impl Admitter<'_> {
     fn compile(
         &self,
         bytes: &[u8],
-        digest: &Digest,
+        entry: Option<&CacheEntry<'_>>,
     ) -> Result<Result<(Findings, CacheUse), Rejection>, InfrastructureError> {
         let wanted = Wanted {
             code: true,
@@ -149,15 +158,15 @@ impl Admitter<'_> {
             let examined = compiler.examine(bytes, wanted, &|| Destination::temporary())?;
             Ok(examined.map(|findings| (findings, cache)))
         };
-        let Some(cache) = self.cache else {
+        let Some(entry) = entry else {
             return uncached(CacheUse::Off);
         };
-        let cached = || cache.destination(self.engine, digest);
+        let cached = || entry.destination();
         match compiler.examine(bytes, wanted, &cached) {
             Ok(examined) => Ok(examined.map(|findings| (findings, CacheUse::Stored))),
             // The cache has no room; perhaps there is some elsewhere.
             Err(InfrastructureError::Store(reason)) => {
-                let error = cache.failure(reason);
+                let error = entry.failure(reason);
                 uncached(CacheUse::Failed(error.to_string()))
             }
             Err(error) => Err(error),

@@ -7,7 +7,7 @@ use super::super::protocol::{CompileOrder, Compiled, Examined};
 use super::super::role::{COMPILE_CPU_SECONDS, COMPILE_MEMORY_BYTES, Role, SandboxStatus};
 use super::monitor::{Kill, Limit};
 use super::process::{Process, Starter, Talk, WorkerExit};
-use crate::admission::Rejection;
+use crate::admission::{OUT_OF_PROCESSOR_TIME, Rejection};
 use crate::error::InfrastructureError;
 use crate::limits::Limits;
 use crate::runtime::{CompiledCode, Destination};
@@ -173,7 +173,7 @@ fn rejection(exit: &WorkerExit) -> Rejection {
     Rejection::Uncompilable(if exit.killed.is_some() {
         format!("takes more than {} s", COMPILE_TIME_MAX.as_secs())
     } else if exit.is_out_of_processor_time() {
-        format!("takes more than {COMPILE_CPU_SECONDS} s of processor time")
+        format!("takes more than {COMPILE_CPU_SECONDS} {OUT_OF_PROCESSOR_TIME}")
     } else if exit.stderr.contains("memory allocation of") {
         format!(
             "takes more than {} MiB of memory",
