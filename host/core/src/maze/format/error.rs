@@ -24,7 +24,7 @@ pub enum ParseError {
          the six numbers of a cell, or a row of blocks such as `11111`, found {found}"
     )]
     Unrecognized {
-        /// The start of the line, quoted.
+        /// The first character of the line, or a number, quoted.
         found: String,
     },
     /// The format expects something else there.
@@ -36,7 +36,7 @@ pub enum ParseError {
         column: usize,
         /// What the format expects.
         expected: String,
-        /// The text there, quoted.
+        /// The first character there, or a number, quoted.
         found: String,
     },
     /// The text ends too early.

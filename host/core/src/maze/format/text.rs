@@ -3,8 +3,8 @@
 use super::error::ParseError;
 use super::kind::TEXT_BYTES_MAX;
 
-/// The most characters of the file that a message quotes.
-const QUOTED_MAX: usize = 24;
+/// The most digits of a number that a message quotes.
+const DIGITS_MAX: usize = 9;
 
 /// One line of a maze file, without its line ending.
 #[derive(Clone, Copy)]
@@ -102,20 +102,29 @@ impl Word<'_> {
     }
 }
 
-/// A piece of the file as messages quote it: shortened, with control and other invisible
-/// characters escaped, so that no file can send control sequences to a terminal.
+/// A piece of the file as messages quote it: a short number, or the first character of anything
+/// else. The file may be no maze at all but a link to something that its reader must not see,
+/// and what is wrong is at that place. Control and other invisible characters are escaped, so
+/// that no file can send control sequences to a terminal.
 pub(super) fn quoted(text: &str) -> String {
     if text.is_empty() {
         return "nothing".to_owned();
     }
+    let is_number = text.bytes().all(|it| it.is_ascii_digit() || it == b'-');
+    let length = if is_number && text.len() <= DIGITS_MAX {
+        text.len()
+    } else {
+        1
+    };
+    let mut characters = text.chars();
     let mut shown = String::from("`");
-    for character in text.chars().take(QUOTED_MAX) {
+    for character in characters.by_ref().take(length) {
         match character {
             '"' | '\'' => shown.push(character),
             _ => shown.extend(character.escape_debug()),
         }
     }
-    let rest = text.chars().nth(QUOTED_MAX).is_some();
+    let rest = characters.next().is_some();
     shown.push_str(if rest { "...`" } else { "`" });
     shown
 }

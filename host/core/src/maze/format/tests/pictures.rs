@@ -75,15 +75,15 @@ fn invalid_pictures() {
     let after = "line 8, column 1: expected the end of the text after 3 rows of cells, found ";
     check(
         &format!("{picture}by A. Mouse"),
-        Err(&format!("{after}`by A. Mouse`")),
+        Err(&format!("{after}`b...`")),
     );
     check(
         &format!("{picture}by\nA. Mouse"),
-        Err(&format!("{after}`by`")),
+        Err(&format!("{after}`b...`")),
     );
     check(
         &format!("{picture}{picture}"),
-        Err(&format!("{after}`o---o---o---o`")),
+        Err(&format!("{after}`o...`")),
     );
     let row = "o---o---o---o\n|           |\n";
     let taller = format!("{row}{row}{picture}");
@@ -157,7 +157,7 @@ fn invalid_blocks() {
              found the end of the line",
         "1010001\n1111111\n",
         "1010001\n1111111\nMilestone 3",
-        "line 8, column 1: expected the end of the text after 3 rows of cells, found `Milestone 3`",
+        "line 8, column 1: expected the end of the text after 3 rows of cells, found `M...`",
         "1010001\n1111111\n",
         "1010001\n",
         "line 7: expected a row of walls, found the end of the text",
