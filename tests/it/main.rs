@@ -68,17 +68,19 @@ mod sandbox;
 mod sdk_arena;
 /// Where the shared material is.
 mod shared;
+/// A host that is short of memory or descriptors.
+mod shortage;
 /// Hosts that lack memory, descriptors or cores.
 #[cfg(unix)]
 mod shortages;
-/// A host that is short of memory or descriptors.
-mod shortage;
 /// Robots that take very long for their fuel.
 mod slow;
 /// Optimal paths and the oracle scores of the official mazes.
 mod solver;
 /// Results on standard output, and pipes that close.
 mod streams;
+/// Pipes, links and hostile names in folders of submissions.
+mod untrusted_files;
 /// Verdicts that depend on the limits, and panics.
 mod verdicts;
 /// `wasmouse verify`: the same, reformatted, changed, or from another version.

@@ -24,7 +24,7 @@ const PRINTING: [&[&str]; 8] = [
 ];
 
 #[test]
-fn a_closed_pipe_is_no_failure() {
+fn a_closed_pipe_is_quiet_and_no_success() {
     for arguments in PRINTING {
         let mut child = wasmouse()
             .args(arguments)
@@ -38,7 +38,7 @@ fn a_closed_pipe_is_no_failure() {
         let stderr = String::from_utf8_lossy(&output.stderr);
         assert_eq!(
             (output.status.code(), &*stderr),
-            (Some(0), ""),
+            (Some(141), ""),
             "{arguments:?}"
         );
     }
@@ -78,6 +78,71 @@ fn messages_may_be_lost() {
     }
 }
 
+/// What cannot be printed is not lost without a word, and files are written all the same.
+#[cfg(target_os = "linux")]
+#[test]
+fn results_files_are_complete_without_standard_output() {
+    let shell = |script: &str| {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let output = Command::new("bash")
+            .args(["-c", script])
+            .current_dir(folder.path())
+            .env("WASMOUSE", path())
+            .stdin(Stdio::null())
+            .output()
+            .expect("there is bash");
+        let stderr = String::from_utf8(output.stderr).expect("text");
+        let json = std::fs::read_to_string(folder.path().join("a.json"));
+        let html = std::fs::read_to_string(folder.path().join("a.html"));
+        (output.status.code(), stderr, json.ok(), html.ok())
+    };
+    let run = "$WASMOUSE run flood dfs gen:tree:12:1..=20 --no-cache -o a.json --html a.html";
+    let (code, _, expected_json, expected_html) = shell(run);
+    assert_eq!(code, Some(0));
+    assert!(expected_json.is_some() && expected_html.is_some());
+    let pipe = "| head -1; exit ${PIPESTATUS[0]}";
+    for (json, redirection, code, message) in [
+        (
+            "",
+            ">&-",
+            5,
+            "error: failed to write to standard output: it is closed",
+        ),
+        (
+            "--json",
+            ">&-",
+            5,
+            "error: failed to write to standard output: it is closed",
+        ),
+        (
+            "",
+            ">/dev/full",
+            5,
+            "error: failed to write to standard output: No space left",
+        ),
+        (
+            "--json",
+            ">/dev/full",
+            5,
+            "error: failed to write to standard output: No space left",
+        ),
+        ("--json", pipe, 141, ""),
+    ] {
+        let found = shell(&format!("{run} {json} {redirection}"));
+        let what = format!("{json} {redirection}: {}", found.1);
+        assert_eq!(found.0, Some(code), "{what}");
+        assert!(found.1.contains(message), "{what}");
+        assert_eq!(found.1.contains("error"), code == 5, "{what}");
+        assert!(found.2 == expected_json, "{what}");
+        assert!(found.3 == expected_html, "{what}");
+    }
+    // A reader that reads everything is no failure.
+    assert_eq!(
+        shell(&format!("{run} | cat; exit ${{PIPESTATUS[0]}}")).0,
+        Some(0)
+    );
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_an_internal_error() {
@@ -88,8 +153,6 @@ fn a_full_disk_is_an_internal_error() {
             .expect("Linux has it")
     };
     for arguments in PRINTING {
-        // clap prints the help, and ignores errors.
-        let expected = if arguments.contains(&"--help") { 0 } else { 5 };
         let output = wasmouse()
             .args(arguments)
             .stdin(Stdio::null())
@@ -97,13 +160,9 @@ fn a_full_disk_is_an_internal_error() {
             .output()
             .expect("the program runs");
         let stderr = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(
-            output.status.code(),
-            Some(expected),
-            "{arguments:?}: {stderr}"
-        );
+        assert_eq!(output.status.code(), Some(5), "{arguments:?}: {stderr}");
         let reported = stderr.starts_with("error: failed to write to standard output: ");
-        assert_eq!(reported, expected == 5, "{arguments:?}: {stderr}");
+        assert!(reported, "{arguments:?}: {stderr}");
     }
     // And when that cannot be reported either.
     let status = wasmouse()

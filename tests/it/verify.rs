@@ -8,6 +8,7 @@ use std::process::{Command, Stdio};
 
 use serde_json::{Value, json};
 use tempfile::TempDir;
+use wasmouse_core::Digest;
 use wasmouse_core::maze::format::{self, Format};
 use wasmouse_core::maze::generate::GenSpec;
 use wasmouse_core::maze::{Cell, Heading, Maze};
@@ -184,6 +185,32 @@ fn reformatted_results_are_verified() {
     }
     let (code, printed) = verify(folder.path(), &text, &AVAILABLE);
     assert_eq!((code, &*printed), (0, "-: verified 2 matches\n"));
+}
+
+/// A name is a label: whoever changes it and the digest of the results gets them verified, and a
+/// warning that says which robot it is.
+#[test]
+fn renamed_robots_are_reported() {
+    let folder = folder();
+    let text = record(folder.path(), &["flood", "dfs"], &["test_maze_01"]);
+    let renamed = text
+        .replace("\"flood:", "\"FLOOD:")
+        .replace("\"dfs:", "\"flood:")
+        .replace("\"FLOOD:", "\"dfs:");
+    assert_ne!(renamed, text, "they have variants");
+    fs::write(folder.path().join("renamed.json"), &renamed).expect("a file");
+    let verified = |name: &str| {
+        let mut verify = command(folder.path(), &["verify", name]);
+        ran(&mut verify)
+    };
+    let played = verified("renamed.json");
+    for (robot, name) in [("flood", "dfs"), ("dfs", "flood")] {
+        let warning = format!("warning: the result calls the bundled robot `{robot}` `{name}:");
+        assert!(played.stderr.contains(&warning), "{}", played.stderr);
+    }
+    fs::write(folder.path().join("own.json"), &text).expect("a file");
+    let played = verified("own.json");
+    assert_eq!((played.status.code(), &*played.stderr), (Some(0), ""));
 }
 
 /// Replaces a value in a document and verifies it.
@@ -441,6 +468,21 @@ fn a_contest_is_reproduced_in_another_order() {
     }
 }
 
+/// Makes an entry of a cache claim the code of another one, as only the owner of the cache can:
+/// its header is that of the first, with the length and the digests of the other code.
+fn forge(entry: &Path, other: &Path) {
+    let read = |path| fs::read(path).expect("an entry");
+    let code = read(other).split_off(160);
+    let mut forged = read(entry);
+    forged.truncate(128);
+    forged[88..96].copy_from_slice(&(code.len() as u64).to_le_bytes());
+    forged[96..].copy_from_slice(Digest::of(&code).as_bytes());
+    let seal = Digest::of(&forged);
+    forged.extend_from_slice(seal.as_bytes());
+    forged.extend_from_slice(&code);
+    fs::write(entry, forged).expect("an entry");
+}
+
 /// Something has to go wrong between the two times for a difference. Here it is a cache that
 /// has the code of one robot under the name of another.
 #[test]
@@ -457,7 +499,7 @@ fn what_is_not_reproducible_is_named() {
     for (robot, name) in [("flood", "flood:reset"), ("robots/copy.wasm", "copy")] {
         let one = cached(robot, &format!("one-{name}"));
         let other = cached("dfs", &format!("other-{name}"));
-        fs::copy(&other, &one).expect("a file");
+        forge(&one, &other);
         let cache = one.parent().expect("a folder");
         let mut run = command(
             folder.path(),

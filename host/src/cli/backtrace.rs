@@ -14,6 +14,7 @@ use super::output::message;
 use super::robots::RobotSpec;
 use crate::contest::{FaultSummary, Plan, Player};
 use crate::report::escape::for_terminal;
+use crate::report::text::Text;
 
 /// Robots that get a backtrace: each is compiled once more.
 const ROBOTS_MAX: usize = 5;
@@ -55,10 +56,7 @@ pub fn print(
         match backtrace {
             Ok(Some(frames)) if !frames.is_empty() => print_frames(name, &frames),
             Ok(_) => {}
-            Err(error) => {
-                let (name, error) = (for_terminal(name), for_terminal(&error.to_string()));
-                message!("warning: no backtrace of `{name}`: {error}");
-            }
+            Err(error) => message!("warning: no backtrace of `{}`: {}", name, error),
         }
     }
 }
@@ -81,5 +79,5 @@ fn print_frames(robot: &str, frames: &[Frame]) {
         1 => lines.push_str("\n  (1 frame of the Rust runtime hidden)"),
         hidden => lines.push_str(&format!("\n  ({hidden} frames of the Rust runtime hidden)")),
     }
-    message!("{lines}");
+    message!("{}", Text::of_lines(&lines));
 }

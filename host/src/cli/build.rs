@@ -4,7 +4,6 @@
 //! Which compiler is used is decided by [`super::toolchain`].
 
 use std::ffi::OsString;
-use std::fmt;
 use std::fs;
 use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -16,8 +15,10 @@ use wasmouse_engine::admission::{componentize, examine};
 
 use super::exit::Exit;
 use super::failure::Failure;
+use super::input;
 use super::output::{self, Existing};
 use super::toolchain::{Toolchain, WASM_TARGET};
+use crate::report::text::{Text, text};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -48,6 +49,10 @@ pub struct Args {
     profile: String,
 }
 
+/// The largest core module that is turned into a component, in bytes. No robot is admitted that
+/// is nearly as large, but `wasmouse inspect` says more about one that is too large.
+const CORE_MODULE_BYTES_MAX: u64 = 256 << 20;
+
 /// The file that makes a folder a robot project.
 const MANIFEST: &str = "Cargo.toml";
 
@@ -63,10 +68,11 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         let project = Project::find(&args.path)?;
         (project.compile(&args.profile)?, project.component())
     } else {
-        let module = fs::read(&args.path).map_err(|error| {
-            Failure::input(format_args!(
-                "failed to read `{}`: {error}",
-                args.path.display()
+        let module = input::read_file(&args.path, CORE_MODULE_BYTES_MAX).map_err(|error| {
+            Failure::input(text!(
+                "failed to read `{}`: {}",
+                Text::of_path(&args.path),
+                error
             ))
             .hint("give the folder of a robot project or a core module (.wasm)")
         })?;
@@ -75,7 +81,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     let component = to_component(&core_module, &args.path)?;
     let file = args.output.as_deref().unwrap_or(&default_output);
     output::save(file, &component, Existing::Replace)?;
-    output::print(&format!("{}\n", Built::new(file, &component)))?;
+    output::print(Built::new(file, &component).text().as_str())?;
     Ok(Exit::Success)
 }
 
@@ -117,9 +123,10 @@ pub fn newer_source(project: &Path, component: &Path) -> Option<PathBuf> {
 
 fn to_component(core_module: &[u8], source: &Path) -> Result<Vec<u8>, Failure> {
     componentize(core_module).map_err(|error| {
-        Failure::robot(format_args!(
-            "cannot build a robot from `{}`: {error}",
-            source.display()
+        Failure::robot(text!(
+            "cannot build a robot from `{}`: {}",
+            Text::of_path(source),
+            error
         ))
         .hint(error.hint())
     })
@@ -162,23 +169,25 @@ impl Project {
     fn find(folder: &Path) -> Result<Self, Failure> {
         let manifest = folder.join(MANIFEST);
         let text = fs::read_to_string(&manifest).map_err(|error| {
-            Failure::input(format_args!(
-                "failed to read `{}`: {error}",
-                manifest.display()
+            Failure::input(text!(
+                "failed to read `{}`: {}",
+                Text::of_path(&manifest),
+                error
             ))
             .hint("give the folder of a robot project; `wasmouse new my-robot` creates one")
         })?;
         let parsed: Manifest = toml::from_str(&text).map_err(|error| {
-            Failure::input(format_args!(
-                "failed to parse `{}`: {error}",
-                manifest.display()
+            Failure::input(text!(
+                "failed to parse `{}`: {}",
+                Text::of_path(&manifest),
+                Text::of_lines(&error.to_string())
             ))
             .hint("a robot project has a cargo manifest with a `[package]`")
         })?;
         let Some(package) = parsed.package else {
-            return Err(Failure::input(format_args!(
+            return Err(Failure::input(text!(
                 "`{}` is a workspace without a package",
-                manifest.display()
+                Text::of_path(&manifest)
             ))
             .hint("give the folder of one robot in it"));
         };
@@ -242,9 +251,10 @@ impl Project {
                 )
             })?;
         fs::read(&module).map_err(|error| {
-            Failure::internal(format_args!(
-                "failed to read `{}`: {error}",
-                module.display()
+            Failure::internal(text!(
+                "failed to read `{}`: {}",
+                Text::of_path(&module),
+                error
             ))
         })
     }
@@ -336,18 +346,18 @@ impl<'a> Built<'a> {
     }
 }
 
-impl fmt::Display for Built<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Built<'_> {
+    fn text(&self) -> Text {
         let imports = if self.imports.is_empty() {
             "nothing".to_owned()
         } else {
             self.imports.join(", ")
         };
-        write!(
-            f,
-            "{}: {} bytes, imports {imports}",
-            self.path.display(),
-            self.size_bytes
+        text!(
+            "{}: {} bytes, imports {}\n",
+            Text::of_path(self.path),
+            self.size_bytes,
+            imports
         )
     }
 }

@@ -17,8 +17,8 @@ pub enum Exit {
     Input = 3,
     /// A robot was rejected or ended a match with a fault.
     Robot = 4,
-    /// An internal error: a full disk, a broken pipe to a worker, a bug. Also when some matches
-    /// could not be played, or a robot took too long.
+    /// An internal error: a full disk, standard output that is closed, a broken pipe to a worker,
+    /// a bug. Also when some matches could not be played, or a robot took too long.
     Internal = 5,
     /// Everything was played, and no robot finished any match.
     NoneFinished = 6,
@@ -28,6 +28,9 @@ pub enum Exit {
     Reformatted = 8,
     /// Interrupted by Ctrl-C; what was finished by then has been written.
     Interrupted = 130,
+    /// Everything was done, but the reader of standard output went away before the end. As the
+    /// shell reports a program that the signal for a broken pipe ends.
+    Unread = 141,
 }
 
 impl Exit {
@@ -48,11 +51,12 @@ Exit codes:
     2  invalid command line
     3  an input file or a required tool is missing or invalid
     4  a robot was rejected or faulted
-    5  internal error
+    5  internal error, such as a full disk or a closed standard output
     6  no robot finished any match
     7  a result was recorded with another engine version
     8  a result is verified, but its file was reformatted
-  130  interrupted by Ctrl-C";
+  130  interrupted by Ctrl-C
+  141  the reader of standard output closed it before the end";
 
 impl From<Exit> for ExitCode {
     fn from(exit: Exit) -> Self {

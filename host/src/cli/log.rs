@@ -27,26 +27,32 @@ pub fn print(plan: &Plan, players: &[Player], executor: &dyn Executor, results: 
             Ok(Some(replayed)) => replayed,
             Ok(None) => continue,
             Err(InfrastructureError::Withdrawn(reason)) => {
-                message!("warning: no more logs of `{robot}`: {reason}");
+                message!("warning: no more logs of `{}`: {}", robot, reason);
                 withdrawn.insert(record.key.robot);
                 continue;
             }
             Err(error) => {
-                message!("warning: no log of `{robot}` in `{maze}`, seed {seed}: {error}");
+                message!(
+                    "warning: no log of `{}` in `{}`, seed {}: {}",
+                    robot,
+                    maze,
+                    seed,
+                    error
+                );
                 continue;
             }
         };
-        message!("log of `{robot}` in `{maze}`, seed {seed}:");
+        message!("log of `{}` in `{}`, seed {}:", robot, maze, seed);
         let journal = &replayed.detailed.recording.journal;
         for entry in journal.entries() {
             if let Note::Log { level, text } = entry.note {
                 let level = level_name(level);
-                message!("{:>6} {level:<7} {}", entry.step, for_terminal(text));
+                message!("{:>6} {:<7} {}", entry.step, level, text);
             }
         }
         let dropped = record.journal.dropped;
         if dropped > 0 {
-            message!("       {dropped} more entries exceeded the journal limit");
+            message!("       {} more entries exceeded the journal limit", dropped);
         }
     }
 }

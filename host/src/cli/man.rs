@@ -10,6 +10,7 @@ use clap_mangen::Man;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output::{self, Existing};
+use crate::report::text::{Text, text};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -31,13 +32,14 @@ pub fn run(args: &Args, mut command: Command) -> Result<Exit, Failure> {
     match &args.output {
         None => {
             let page = page(&command, "wasmouse")?;
-            output::print(&String::from_utf8_lossy(&page))?;
+            output::print_data(&String::from_utf8_lossy(&page))?;
         }
         Some(folder) => {
             fs::create_dir_all(folder).map_err(|error| {
-                Failure::internal(format_args!(
-                    "failed to create `{}`: {error}",
-                    folder.display()
+                Failure::internal(text!(
+                    "failed to create `{}`: {}",
+                    Text::of_path(folder),
+                    error
                 ))
             })?;
             write_all(folder, &command, "wasmouse")?;

@@ -5,8 +5,8 @@
 
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
-use std::fs::{self, File};
-use std::io::{self, Read};
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -16,10 +16,11 @@ use wasmouse_core::maze::generate::{GenSpec, GeneratedMaze};
 use wasmouse_core::maze::{BundledMaze, Maze, bundled, violations};
 
 use super::failure::Failure;
+use super::input;
 use super::output::message;
 use super::suggest::suggestion;
 use crate::contest::MazeSource;
-use crate::report::escape::for_terminal;
+use crate::report::text::{Text, text};
 
 /// What a user may write for a maze, for the long help of every command.
 pub const SPECIFICATION_HELP: &str = "\
@@ -114,7 +115,8 @@ pub fn load(
     }
     if skipped > 0 {
         message!(
-            "warning: skipped {skipped} of {} mazes; --strict makes this an error",
+            "warning: skipped {} of {} mazes; --strict makes this an error",
+            skipped,
             sources.len()
         );
     }
@@ -127,8 +129,11 @@ pub fn distinct(mazes: Vec<MazeSource>) -> Vec<MazeSource> {
     let is_new = |maze: &MazeSource| {
         let twin = seen.twin(maze);
         if let Some(twin) = &twin {
-            let (name, twin) = (for_terminal(&maze.name()), for_terminal(twin));
-            message!("warning: skipped `{name}`, which is the same maze as `{twin}`");
+            message!(
+                "warning: skipped `{}`, which is the same maze as `{}`",
+                maze.name(),
+                twin
+            );
         }
         twin.is_none()
     };
@@ -255,10 +260,9 @@ impl Source {
         let bytes = match self {
             Self::Generated(maze) => return Ok((maze.generate(), None)),
             Self::Bundled(maze) => maze.text.as_bytes().to_vec(),
-            Self::File(path) => File::open(path)
-                .and_then(read_limited)
+            Self::File(path) => input::read_file(path, TEXT_BYTES_MAX as u64)
                 .map_err(|error| unreadable(path, &error))?,
-            Self::Stdin => read_limited(io::stdin().lock())
+            Self::Stdin => input::read_stdin(TEXT_BYTES_MAX as u64)
                 .map_err(|error| unreadable(Path::new(STDIN), &error))?,
         };
         let Parsed { format, maze } = self.parse(bytes)?;
@@ -283,11 +287,6 @@ impl Source {
         let failed = |reason: &dyn std::fmt::Display| {
             Failure::input(format!("failed to parse maze `{}`: {reason}", self.label()))
         };
-        if bytes.len() > TEXT_BYTES_MAX {
-            return Err(failed(&format!(
-                "the file has more than {TEXT_BYTES_MAX} bytes"
-            )));
-        }
         let text = String::from_utf8(bytes).map_err(|error| {
             let place = error.utf8_error().valid_up_to();
             failed(&format!("byte {place} is not UTF-8"))
@@ -349,30 +348,13 @@ fn generated(spec: &str) -> Result<Vec<Source>, Failure> {
     Ok(mazes.map(Source::Generated).collect())
 }
 
-/// Reads at most one byte more than a maze file may have, so that neither a
-/// huge file nor an endless device does any harm.
-fn read_limited(reader: impl Read) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    let limit = TEXT_BYTES_MAX as u64 + 1;
-    reader.take(limit).read_to_end(&mut bytes)?;
-    Ok(bytes)
-}
-
 fn folder(path: &Path) -> Result<Vec<Source>, Failure> {
-    let failed = |error: io::Error| unreadable(path, &error);
-    let mut files = Vec::new();
-    for entry in fs::read_dir(path).map_err(failed)? {
-        let file = entry.map_err(failed)?.path();
-        if is_maze_file(&file) {
-            files.push(file);
-        }
-    }
+    let files = input::list(path, is_maze_file).map_err(|error| unreadable(path, &error))?;
     if files.is_empty() {
         let message = format!("folder `{}` has no mazes", shown(path));
         let hint = format!("mazes end in .{}", EXTENSIONS.join(", ."));
         return Err(Failure::input(message).hint(hint));
     }
-    files.sort();
     Ok(files.into_iter().map(Source::File).collect())
 }
 
@@ -385,7 +367,7 @@ fn is_maze_file(path: &Path) -> bool {
             .iter()
             .any(|known| extension.eq_ignore_ascii_case(known))
     });
-    has_extension && !is_hidden && !path.is_dir()
+    has_extension && !is_hidden
 }
 
 fn require_legal(source: &Source, maze: &Maze) -> Result<(), Failure> {
@@ -394,19 +376,20 @@ fn require_legal(source: &Source, maze: &Maze) -> Result<(), Failure> {
         return Ok(());
     }
     let rules = if broken.len() == 1 { "rule" } else { "rules" };
-    let mut message = format!(
-        "maze `{}` breaks {} contest {rules}:",
+    let mut message = text!(
+        "maze `{}` breaks {} contest {}:",
         source.label(),
-        broken.len()
+        broken.len(),
+        rules
     );
     for violation in broken {
-        message.push_str(&format!("\n  {violation}"));
+        message = text!("{}\n  {}", message, violation);
     }
     Err(Failure::input(message).hint("--lenient accepts it"))
 }
 
 fn unreadable(path: &Path, error: &io::Error) -> Failure {
-    Failure::input(format!("failed to read maze `{}`: {error}", shown(path)))
+    input::failure("maze", path, error)
 }
 
 fn unknown(spec: &str) -> Failure {
@@ -423,7 +406,7 @@ fn unknown(spec: &str) -> Failure {
 
 /// A path for people.
 fn shown(path: &Path) -> String {
-    for_terminal(&path.display().to_string())
+    Text::of_path(path).as_str().to_owned()
 }
 
 #[cfg(test)]
@@ -566,7 +549,7 @@ mod tests {
             ),
             (
                 "huge.txt",
-                "error: failed to parse maze `SPEC`: the file has more than 262144 bytes",
+                "error: failed to read maze `SPEC`: the file has more than 262144 bytes",
             ),
             (
                 "latin1.txt",

@@ -11,6 +11,7 @@ mod completions;
 mod demo;
 mod exit;
 mod failure;
+mod input;
 mod inspect;
 mod interrupt;
 mod log;
@@ -36,12 +37,17 @@ mod watch;
 mod worker;
 
 use std::process::ExitCode;
+use std::thread;
 
+use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory as _, Parser, Subcommand};
 
 use exit::{EXIT_CODES_HELP, Exit};
 use failure::Failure;
 use output::message;
+
+use crate::report::escape::for_terminal;
+use crate::report::text::Text;
 
 /// Run virtual micromouse contests of WebAssembly robots
 #[derive(Parser)]
@@ -69,11 +75,32 @@ enum Command {
     Worker(worker::Args),
 }
 
+/// Stack of the thread that a command runs on, in bytes. The one that the system gives may be a
+/// few pages (`ulimit -s`), and signals are delivered there too.
+const STACK_BYTES: usize = 8 << 20;
+
 /// Runs the command line of this process and returns its exit code.
 pub fn main() -> ExitCode {
+    // A worker has no room for a thread that it does not need, and starts those that it does.
+    if let Some(args) = worker::Args::of_process() {
+        return end(worker::run(&args));
+    }
+    let thread = thread::Builder::new()
+        .name("main".to_owned())
+        .stack_size(STACK_BYTES);
+    match thread.spawn(command) {
+        Ok(thread) => thread
+            .join()
+            .unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+        // Perhaps the stack that is there is large enough.
+        Err(_) => command(),
+    }
+}
+
+fn command() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
-        Err(error) => return print_clap_error(&error),
+        Err(error) => return print_clap_error(error),
     };
     // A worker is ended by its supervisor, and must not start threads of its own.
     if !matches!(cli.command, Command::Worker(_)) {
@@ -92,28 +119,53 @@ pub fn main() -> ExitCode {
         Command::Man(args) => man::run(&args, Cli::command()),
         Command::Worker(args) => worker::run(&args),
     };
-    match outcome {
-        Ok(exit) => exit.into(),
-        Err(failure) => {
-            message!("{failure}");
-            failure.exit().into()
-        }
-    }
+    end(outcome)
+}
+
+/// The exit code of a command that ended so, with a message when it failed.
+fn end(outcome: Result<Exit, Failure>) -> ExitCode {
+    let exit = outcome.unwrap_or_else(|failure| {
+        message!("{}", failure.report());
+        failure.exit()
+    });
+    output::finish(exit).into()
 }
 
 /// Prints an invalid command line, or the help, as clap does, but with the word for hints that
 /// all other messages have.
-fn print_clap_error(error: &clap::Error) -> ExitCode {
+fn print_clap_error(mut error: clap::Error) -> ExitCode {
+    escape_arguments(&mut error);
     let text = error.render();
     if error.use_stderr() {
-        let text = text.ansi().to_string();
-        let plain = text.replace("tip:", "hint:");
-        message!("{}", plain.trim_end());
+        // It has arguments in it, so colours are not worth it.
+        let plain = text.to_string().replace("tip:", "hint:");
+        message!("{}", Text::of_lines(plain.trim_end()));
     } else {
-        // A closed pipe is no failure, and there is no other way to report one.
-        let _ = error.print();
+        if let Err(error) = error.print() {
+            output::keep_error(error);
+        }
     }
-    Exit::from_clap(error.exit_code()).into()
+    output::finish(Exit::from_clap(error.exit_code())).into()
+}
+
+/// Escapes the arguments that the message of an invalid command line quotes: one with a line break
+/// could look like a message of its own.
+fn escape_arguments(error: &mut clap::Error) {
+    let context: Vec<(ContextKind, String)> = error
+        .context()
+        .filter_map(|(kind, value)| match value {
+            ContextValue::String(text) => Some((kind, text.clone())),
+            _ => None,
+        })
+        .collect();
+    for (kind, text) in context {
+        let escaped = for_terminal(&text);
+        if escaped != text {
+            error.insert(kind, ContextValue::String(escaped));
+            // These quote it again.
+            error.insert(ContextKind::Suggested, ContextValue::None);
+        }
+    }
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
+use crate::report::text::{Text, text};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -55,24 +56,30 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     let name = path
         .file_name()
         .and_then(|name| name.to_str())
-        .ok_or_else(|| Failure::usage(format_args!("`{}` has no name in it", path.display())))?;
+        .ok_or_else(|| Failure::usage(text!("`{}` has no name in it", Text::of_path(path))))?;
     check_name(name)?;
     if path.symlink_metadata().is_ok() {
         return Err(
-            Failure::input(format_args!("`{}` already exists", path.display()))
+            Failure::input(text!("`{}` already exists", Text::of_path(path)))
                 .hint("choose another name, or remove it"),
         );
     }
     create(path, name).map_err(|error| {
-        Failure::internal(format_args!(
-            "failed to create `{}`: {error}",
-            path.display()
+        Failure::internal(text!(
+            "failed to create `{}`: {}",
+            Text::of_path(path),
+            error
         ))
     })?;
-    let path = path.display();
-    output::print(&format!(
-        "created {path}\n\n  wasmouse build {path}\n  wasmouse run {path}/{name}.wasm\n"
-    ))?;
+    let path = Text::of_path(path);
+    let created = text!(
+        "created {}\n\n  wasmouse build {}\n  wasmouse run {}/{}.wasm\n",
+        path,
+        path,
+        path,
+        name
+    );
+    output::print(created.as_str())?;
     Ok(Exit::Success)
 }
 

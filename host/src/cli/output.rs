@@ -1,31 +1,44 @@
 //! Where commands write: data to standard output and files, messages to standard error.
 
-use std::fmt;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use tempfile::NamedTempFile;
 
+use super::exit::Exit;
 use super::failure::Failure;
+use crate::report::text::{Text, text};
 
-/// Prints a message for the user to standard error, formatted as by `format!`.
+/// Prints a message for the user to standard error, made as by `text!`: all
+/// arguments are escaped.
 macro_rules! message {
     ($($arguments:tt)*) => {
-        $crate::cli::output::write_message(format_args!($($arguments)*))
+        $crate::cli::output::write_message(&$crate::report::text::text!($($arguments)*))
     };
 }
 
 pub(in crate::cli) use message;
 
-/// Writes text to standard output.
-///
-/// A reader that closes the pipe early, such as `head`, is no failure.
+/// Writes lines for people to standard output. Names in them should be escaped already, so that
+/// none can look like a line of its own; whatever else controls a terminal is escaped here.
 ///
 /// # Errors
 ///
-/// When standard output cannot be written for another reason, such as a full disk.
-pub fn print(text: &str) -> Result<(), Failure> {
+/// As [`print_data`].
+pub fn print(lines: &str) -> Result<(), Failure> {
+    print_data(Text::of_lines(lines).as_str())
+}
+
+/// Writes data to standard output as it is: files, scripts, and pictures in colour.
+///
+/// # Errors
+///
+/// None at present: what goes wrong is kept for [`finish`], so that everything else is done
+/// before the command fails.
+pub fn print_data(text: &str) -> Result<(), Failure> {
     let mut stdout = Stdout::default();
     let written = stdout
         .write_all(text.as_bytes())
@@ -35,42 +48,91 @@ pub fn print(text: &str) -> Result<(), Failure> {
 
 /// The failure to write standard output.
 pub fn stdout_failure(error: &io::Error) -> Failure {
-    Failure::internal(format!("failed to write to standard output: {error}"))
+    Failure::internal(text!("failed to write to standard output: {}", error))
 }
 
-/// Standard output that goes on writing into nothing when its reader has closed the pipe.
-#[derive(Debug, Default)]
-pub struct Stdout {
-    closed: bool,
+/// The first error of standard output. What is written after it goes nowhere.
+static LOST: OnceLock<io::Error> = OnceLock::new();
+
+/// Whether standard output was closed when the process began.
+static CLOSED: AtomicBool = AtomicBool::new(false);
+
+/// Notes whether standard output is closed, before the standard library opens `/dev/null` in its
+/// place: what is written there would be lost without an error.
+#[cfg(target_os = "linux")]
+extern "C" fn note_closed_stdout() {
+    let flags = rustix::io::fcntl_getfd(rustix::stdio::stdout());
+    CLOSED.store(flags.is_err(), Ordering::Relaxed);
 }
+
+// SAFETY: the section has pointers to functions that run before `main`, and this is one. It makes
+// a system call and stores a value, for which nothing needs to be set up.
+#[cfg(target_os = "linux")]
+#[used]
+#[unsafe(link_section = ".init_array")]
+static NOTE_CLOSED_STDOUT: extern "C" fn() = note_closed_stdout;
+
+/// Standard output. The first error is kept for [`finish`], and what is written after it goes
+/// nowhere: results also go into files, which have to be complete whatever happens here.
+#[derive(Debug, Default)]
+pub struct Stdout(());
 
 impl Stdout {
-    fn unless_closed<T>(&mut self, written: io::Result<T>, otherwise: T) -> io::Result<T> {
+    fn kept<T>(written: io::Result<T>, otherwise: T) -> io::Result<T> {
         match written {
-            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
-                self.closed = true;
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => Err(error),
+            Err(error) => {
+                keep_error(error);
                 Ok(otherwise)
             }
-            other => other,
+            written => written,
         }
     }
 }
 
 impl Write for Stdout {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        if self.closed {
+        if LOST.get().is_some() {
             return Ok(bytes.len());
         }
-        let written = io::stdout().lock().write(bytes);
-        self.unless_closed(written, bytes.len())
+        if CLOSED.load(Ordering::Relaxed) {
+            keep_error(io::Error::other("it is closed"));
+            return Ok(bytes.len());
+        }
+        Self::kept(io::stdout().lock().write(bytes), bytes.len())
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        if self.closed {
+        if LOST.get().is_some() {
             return Ok(());
         }
-        let flushed = io::stdout().lock().flush();
-        self.unless_closed(flushed, ())
+        Self::kept(io::stdout().lock().flush(), ())
+    }
+}
+
+/// Keeps an error of standard output for [`finish`].
+pub fn keep_error(error: io::Error) {
+    // Only the first one matters.
+    let _ = LOST.set(error);
+}
+
+/// The exit code of a command that would have that one, when standard output may have been lost.
+///
+/// A reader that closes the pipe early, such as `head`, wants no message; but not all was
+/// written, so it is no success either. Everything else is reported.
+pub fn finish(exit: Exit) -> Exit {
+    // Nothing is buffered but the rest of a line.
+    let _ = Stdout::default().flush();
+    match LOST.get() {
+        None => exit,
+        Some(error) if error.kind() == io::ErrorKind::BrokenPipe => match exit {
+            Exit::Success => Exit::Unread,
+            other => other,
+        },
+        Some(error) => {
+            write_message(&stdout_failure(error).report());
+            Exit::Internal
+        }
     }
 }
 
@@ -78,8 +140,8 @@ impl Write for Stdout {
 ///
 /// Whether it can be written decides nothing: results and exit codes are the same when
 /// standard error is closed, or on a full disk.
-pub fn write_message(line: fmt::Arguments<'_>) {
-    let _ = writeln!(anstream::stderr(), "{line}");
+pub fn write_message(text: &Text) {
+    let _ = writeln!(anstream::stderr(), "{}", text.as_str());
 }
 
 /// What to do with a file that already exists.
@@ -188,29 +250,34 @@ fn target(path: &Path, existing: Existing) -> Result<PathBuf, Failure> {
             if folder.is_dir() {
                 Ok(path.to_owned())
             } else {
-                Err(Failure::input(format!(
+                Err(Failure::input(text!(
                     "failed to write `{}`: the folder `{}` does not exist",
-                    path.display(),
-                    folder.display()
+                    Text::of_path(path),
+                    Text::of_path(folder)
                 )))
             }
         }
         Err(error) => Err(failure(path, &error)),
-        Ok(metadata) if !metadata.is_file() => Err(Failure::input(format!(
+        Ok(metadata) if !metadata.is_file() => Err(Failure::input(text!(
             "failed to write `{}`: not a regular file",
-            path.display()
+            Text::of_path(path)
         ))),
-        Ok(_) if existing == Existing::Keep => Err(Failure::input(format!(
+        Ok(_) if existing == Existing::Keep => Err(Failure::input(text!(
             "failed to write `{}`: the file already exists",
-            path.display()
+            Text::of_path(path)
         ))
         .hint("replace it with --force")),
         Ok(_) => path.canonicalize().map_err(|error| failure(path, &error)),
     }
 }
 
-fn failure(path: &Path, error: &io::Error) -> Failure {
-    Failure::internal(format!("failed to write `{}`: {error}", path.display()))
+/// The failure to write a file.
+pub fn failure(path: &Path, error: &io::Error) -> Failure {
+    Failure::internal(text!(
+        "failed to write `{}`: {}",
+        Text::of_path(path),
+        error
+    ))
 }
 
 #[cfg(test)]

@@ -4,9 +4,10 @@ use std::io::Write as _;
 use std::path::Path;
 
 use super::failure::Failure;
-use super::output::{Draft, message};
+use super::output::{self, Draft, message};
 use crate::contest::{BestMatch, Player, Results};
 use crate::report::page::{BestRun, Page};
+use crate::report::text::Text;
 
 /// More pictures than this make a page slow to load.
 const PICTURES_MAX: usize = 60;
@@ -46,11 +47,11 @@ pub fn write(
         summary: &results.summary,
         best: &runs,
     };
-    let written = draft.write_all(page.to_html().as_bytes());
-    written.map_err(|error| {
-        Failure::internal(format!("failed to write `{}`: {error}", path.display()))
-    })?;
+    // Names are escaped where they are put into the page; this is for one that was forgotten.
+    let html = Text::of_lines(&page.to_html());
+    let written = draft.write_all(html.as_str().as_bytes());
+    written.map_err(|error| output::failure(path, &error))?;
     draft.commit()?;
-    message!("wrote {}", path.display());
+    message!("wrote {}", Text::of_path(path));
     Ok(())
 }

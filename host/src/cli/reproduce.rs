@@ -20,7 +20,6 @@ use super::verdict::print_failed_admissions;
 use crate::contest::{
     ContestMatch, MatchFailure, Plan, RecordList, Results, Sink, Tee, differences,
 };
-use crate::report::escape::for_terminal;
 use crate::report::verification::{Difference, MatchName};
 
 /// Differences that are listed.
@@ -81,26 +80,37 @@ pub fn check(
         }
     }
     if is_interrupted()? {
-        message!("interrupted: {missing} matches were not played a second time");
+        message!(
+            "interrupted: {} matches were not played a second time",
+            missing
+        );
         return Ok(Exit::Interrupted);
     }
     print_failed_admissions(&again);
     for (key, (reason, matches)) in &reasons.0 {
-        let robot = for_terminal(names.robot(key));
-        let reason = for_terminal(reason);
-        message!("error: {matches} matches of `{robot}` were not played a second time: {reason}");
+        message!(
+            "error: {} matches of `{}` were not played a second time: {}",
+            matches,
+            names.robot(key),
+            reason
+        );
     }
     if count > 0 {
         message!(
-            "error: {count} values differ when the contest is played again\n\n\
+            "error: {} values differ when the contest is played again\n\n\
              hint: a damaged cache of compiled robots (try --no-cache), a faulty machine, or a \
-             bug in wasmouse"
+             bug in wasmouse",
+            count
         );
         return Ok(Exit::CheckFailed);
     }
     if missing > 0 {
         let (missing, all) = (missing, results.matches.len());
-        message!("error: {missing} of {all} matches could not be played a second time");
+        message!(
+            "error: {} of {} matches could not be played a second time",
+            missing,
+            all
+        );
         return Ok(Exit::Internal);
     }
     message!("reproduced {} matches", results.matches.len());

@@ -17,6 +17,7 @@ use super::failure::Failure;
 use super::mazes::{self, Source};
 use super::robots;
 use crate::contest::{MazeEntry, MazeSource, RobotEntry};
+use crate::report::text::{Text, text};
 
 /// What a search by digest came to.
 pub enum Found<T> {
@@ -34,6 +35,34 @@ pub enum RobotSource {
     Bundled(&'static BundledRobot),
     /// It is this file.
     File(PathBuf),
+}
+
+impl RobotSource {
+    /// Whether that is a name which `wasmouse run` gives this robot by itself, with any variant.
+    pub fn is_called(&self, name: &str) -> bool {
+        let own = match self {
+            Self::Bundled(robot) => robot.name.to_owned(),
+            Self::File(path) => match path.file_stem() {
+                Some(stem) => stem.to_string_lossy().into_owned(),
+                None => return false,
+            },
+        };
+        // A file that shares its name with another is called by its path.
+        let name = Path::new(name).file_name().unwrap_or_default();
+        let rest = name.to_str().and_then(|name| name.strip_prefix(&own));
+        rest.is_some_and(|rest| {
+            let rest = rest.strip_prefix(".wasm").unwrap_or(rest);
+            rest.is_empty() || rest.starts_with(':')
+        })
+    }
+
+    /// What messages call it.
+    pub fn label(&self) -> Text {
+        match self {
+            Self::Bundled(robot) => text!("the bundled robot `{}`", robot.name),
+            Self::File(path) => text!("the file `{}`", Text::of_path(path)),
+        }
+    }
 }
 
 /// Robots in files, and the bundled ones.

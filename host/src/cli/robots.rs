@@ -4,7 +4,6 @@
 //! variant can be given to it. A file that is rejected is no failure here: the contest goes on
 //! without it and the report says why.
 
-use std::fs;
 use std::io::Read as _;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};
@@ -17,10 +16,12 @@ use wasmouse_engine::{AdmittedRobot, CacheUse, InfrastructureError, LocalExecuto
 
 use super::build;
 use super::failure::Failure;
+use super::input;
 use super::output::message;
 use super::suggest::suggestion;
 use crate::contest::{Entrant, NotAdmitted};
 use crate::report::escape::for_terminal;
+use crate::report::text::Text;
 
 /// What a user may write for a robot, for the long help of commands.
 pub const SPECIFICATION_HELP: &str = "\
@@ -56,7 +57,7 @@ pub fn is_robot(argument: &str) -> bool {
         find(text).is_some()
             || has_wasm_extension(path)
             || build::is_project(path)
-            || (path.is_dir() && !wasm_files(path).unwrap_or_default().is_empty())
+            || (path.is_dir() && input::has_any(path, has_wasm_extension))
     };
     names_robot(argument) || split_variant(argument).is_some_and(|(text, _)| names_robot(text))
 }
@@ -159,15 +160,7 @@ pub fn folder(path: &Path) -> Result<Vec<PathBuf>, Failure> {
 
 /// The files in a folder that end in `.wasm`, by name.
 fn wasm_files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
-    let mut files = Vec::new();
-    for entry in fs::read_dir(folder)? {
-        let path = entry?.path();
-        if has_wasm_extension(&path) && path.is_file() {
-            files.push(path);
-        }
-    }
-    files.sort();
-    Ok(files)
+    input::list(folder, has_wasm_extension)
 }
 
 /// Whether a file has the extension of robots.
@@ -187,9 +180,9 @@ fn warn_if_stale(component: &Path) {
     if let Some(source) = build::newer_source(project, component) {
         message!(
             "warning: `{}` is older than `{}`\n  hint: rebuild it with `wasmouse build {}`",
-            for_terminal(&component.display().to_string()),
-            for_terminal(&source.display().to_string()),
-            for_terminal(&project.display().to_string()),
+            Text::of_path(component),
+            Text::of_path(&source),
+            Text::of_path(project),
         );
     }
 }
@@ -271,7 +264,7 @@ pub fn read_file(path: &Path, bytes_max: u64) -> Result<Vec<u8>, Failure> {
         Failure::input(format!("failed to read robot `{shown}`: {error}"))
             .hint(unknown_hint(&path.to_string_lossy()))
     };
-    let file = fs::File::open(path).map_err(failed)?;
+    let file = input::open(path).map_err(failed)?;
     let mut bytes = Vec::new();
     file.take(bytes_max.saturating_add(1))
         .read_to_end(&mut bytes)
@@ -345,7 +338,7 @@ pub fn admit(
     Ok(match admission {
         Ok(Ok(Ok(robot))) => {
             if let CacheUse::Failed(reason) = robot.cache_use() {
-                message!("warning: {reason}; robots are compiled again each time");
+                message!("warning: {}; robots are compiled again each time", reason);
             }
             Ok(Arc::new(robot))
         }
@@ -418,6 +411,8 @@ fn unique_names(specs: &[RobotSpec]) -> Result<Vec<String>, Failure> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[track_caller]

@@ -25,6 +25,7 @@ use crate::report::escape::for_terminal;
 use crate::report::jsonl::JsonLines;
 use crate::report::results_json::ResultsWriter;
 use crate::report::table;
+use crate::report::text::Text;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -284,7 +285,7 @@ impl Args {
         let summary = summary.finish(plan, standings.finish(plan, players));
         if let Some(file) = file {
             file.finish(&summary).map_err(file_failed)?.commit()?;
-            message!("wrote {}", path.display());
+            message!("wrote {}", Text::of_path(path));
         }
         if let Some(stdout) = stdout {
             let written = stdout.finish(&summary);
@@ -322,7 +323,10 @@ impl Args {
             output::print(&format!("{separator}{standings}"))?;
         }
         if !is_listed {
-            message!("{played} matches were played; --matches lists them, -o FILE stores them");
+            message!(
+                "{} matches were played; --matches lists them, -o FILE stores them",
+                played
+            );
         }
         Ok(())
     }

@@ -11,6 +11,7 @@ use std::process::{Command, Stdio};
 
 use super::failure::Failure;
 use super::output::message;
+use crate::report::text::Text;
 
 /// The target of robots: it has no WASI, so nothing of it can be imported.
 pub const WASM_TARGET: &str = "wasm32-unknown-unknown";
@@ -109,8 +110,8 @@ impl Toolchain {
             Plan::UsePackaged(packaged) => {
                 message!(
                     "using the packaged compiler {} with {}",
-                    packaged.rustc.display(),
-                    packaged.linker.display()
+                    Text::of_path(&packaged.rustc),
+                    Text::of_path(&packaged.linker)
                 );
                 Ok(Self::from_packaged(&packaged))
             }
@@ -212,7 +213,7 @@ fn newest_wasm_ld(bin: &Path) -> Option<PathBuf> {
 
 /// Asks rustup for the target; says on stderr what happens.
 fn add_target(folder: &Path) -> bool {
-    message!("adding the target {WASM_TARGET} with rustup");
+    message!("adding the target {} with rustup", WASM_TARGET);
     // rustup's stdout is talk, and ours is data.
     let status: io::Result<_> = quiet("rustup", folder)
         .args(["target", "add", WASM_TARGET])

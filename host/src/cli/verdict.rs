@@ -38,8 +38,10 @@ pub fn exit(plan: &Plan, results: &Results) -> Exit {
     if ended < planned {
         let standings = &summary.standings;
         message!(
-            "interrupted after {ended} of {planned} matches; standings cover the {} of {} mazes \
+            "interrupted after {} of {} matches; standings cover the {} of {} mazes \
              that every robot has played",
+            ended,
+            planned,
             standings.mazes,
             plan.mazes.len()
         );
@@ -84,7 +86,7 @@ pub fn print_faults(plan: &Plan, players: &[Player], results: &Results, summary:
     };
     let text = faults(summary, &results.names(), played);
     for line in text.lines() {
-        message!("{line}");
+        message!("{}", line);
     }
 }
 

@@ -1,7 +1,6 @@
 //! `wasmouse verify`: recorded results against the same matches played again.
 
 use std::collections::HashSet;
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -12,6 +11,7 @@ use wasmouse_engine::{AdmissionLimits, LocalExecutor, engine_id};
 
 use super::exit::Exit;
 use super::failure::Failure;
+use super::input;
 use super::output::{self, message};
 use super::play::{Pace, is_interrupted, play};
 use super::resolve::{Found, Mazes, RobotSource, Robots};
@@ -28,10 +28,11 @@ use crate::report::verification::{
 };
 
 const EXAMPLES: &str = "\
-Every match is played again and every value compared: names and digests, rules,
-verdicts, scores, steps, fuel, transcripts and standings. Robots and mazes are found
-by content, whatever their file names: bundled ones always, `gen:` mazes by name,
-others in the files and folders given with --robot and --maze. Fuel and faults can
+Every match is played again and every value compared: digests, rules, verdicts, scores,
+steps, fuel, transcripts and standings. Robots and mazes are found by content, whatever
+their file names: bundled ones always, `gen:` mazes by name, others in the files and
+folders given with --robot and --maze. Their names are labels: a robot whose file has
+another name gets a warning that says which file it is. Fuel and faults can
 only be compared within one engine: results of another version of wasmouse are
 verified by that version.
 
@@ -96,9 +97,9 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         let (report, own) = match args.verify(path, &available) {
             Ok(verified) => verified,
             Err(failure) => {
-                message!("{failure}");
+                message!("{}", failure.report());
                 let file = path.display().to_string();
-                let report = FileReport::unreadable(&file, failure.message());
+                let report = FileReport::unreadable(&file, failure.message().as_str());
                 (report, failure.exit())
             }
         };
@@ -217,6 +218,7 @@ impl Args {
             message!("hint: give their files or folders with --robot and --maze");
             return Ok((report, Exit::Input));
         }
+        warn_about_names(&recorded, &required.robots);
         let rules = Arc::new(recorded.contest.rules.clone());
         check_rules(&rules, &shown)?;
         let executor = self
@@ -353,6 +355,22 @@ fn judge(
     (report, Exit::Reformatted)
 }
 
+/// Warns about robots that are recorded under other names than they have here. What a match is
+/// about is the digest; a name is a label that anybody can change without a difference.
+fn warn_about_names(recorded: &Results, sources: &[RobotSource]) {
+    for (entry, source) in recorded.contest.robots.iter().zip(sources) {
+        if !source.is_called(&entry.name) {
+            message!(
+                "warning: the result calls {} `{}` (SHA-256 {}); names are labels and are not \
+                 verified",
+                source.label(),
+                entry.name,
+                entry.digest
+            );
+        }
+    }
+}
+
 /// Recorded rules decide what the host allows a robot, so only those that come with wasmouse are
 /// accepted.
 fn check_rules(rules: &Ruleset, shown: &str) -> Result<(), Failure> {
@@ -409,7 +427,7 @@ fn read(path: &Path, shown: &str) -> Result<Vec<u8>, Failure> {
     let read = if path.as_os_str() == STDIN {
         limited(&mut io::stdin().lock())
     } else {
-        File::open(path).and_then(|mut file| limited(&mut file))
+        input::open(path).and_then(|mut file| limited(&mut file))
     };
     let bytes = read.map_err(|error| failed(&error))?;
     if bytes.len() as u64 > RESULT_BYTES_MAX {

@@ -22,6 +22,7 @@ pub mod results_json;
 mod sample;
 mod standings;
 pub mod table;
+pub mod text;
 pub mod verification;
 
 pub use moment::moment;

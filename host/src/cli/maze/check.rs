@@ -7,6 +7,7 @@ use super::super::failure::Failure;
 use super::super::mazes::{self, Source};
 use super::super::output::{self, message};
 use crate::report::maze_check::{CheckedMaze, MazeCheck};
+use crate::report::text::Text;
 use wasmouse_core::maze::format::Format;
 use wasmouse_core::maze::{Maze, Survey, Violation, violations};
 
@@ -62,7 +63,7 @@ pub fn run(args: Args) -> Result<Exit, Failure> {
     let checked: Vec<Checked> = args.mazes.iter().flat_map(|spec| check(spec)).collect();
     for checked in &checked {
         if let Err(failure) = &checked.outcome {
-            message!("{failure}");
+            message!("{}", failure.report());
         }
     }
     let survey = survey(&checked);
@@ -78,7 +79,7 @@ fn check(spec: &str) -> Vec<Checked> {
     match mazes::resolve(spec) {
         Ok(sources) => sources.iter().map(check_source).collect(),
         Err(failure) => vec![Checked {
-            label: spec.to_owned(),
+            label: Text::of_path(spec).as_str().to_owned(),
             outcome: Err(failure),
         }],
     }
@@ -169,7 +170,7 @@ fn json(checked: &[Checked], summary: bool, survey: &Survey) -> String {
         let source = checked.label.clone();
         match &checked.outcome {
             Ok(judged) => CheckedMaze::read(source, &judged.maze, judged.format, &judged.broken),
-            Err(failure) => CheckedMaze::unreadable(source, failure.message().to_owned()),
+            Err(failure) => CheckedMaze::unreadable(source, failure.message().as_str().to_owned()),
         }
     });
     MazeCheck::new((!summary).then(|| mazes.collect()), survey).to_json()

@@ -67,7 +67,7 @@ pub fn run(args: Args) -> Result<Exit, Failure> {
             .hint("--to competition holds any start and goal")
     })?;
     match args.output {
-        None => output::print(&text)?,
+        None => output::print_data(&text)?,
         Some(path) => {
             let existing = if args.force {
                 Existing::Replace

@@ -9,6 +9,7 @@ use super::super::failure::Failure;
 use super::super::interrupt;
 use super::super::mazes;
 use super::super::output::{self, Existing, message};
+use crate::report::text::{Text, text};
 use wasmouse_core::maze::Maze;
 use wasmouse_core::maze::format::{self, Format};
 use wasmouse_core::maze::generate::{GenSpec, GenSpecError, Kind};
@@ -83,7 +84,7 @@ pub fn run(args: Args) -> Result<Exit, Failure> {
             return save_all(&spec, args.format, path, existing);
         }
         Some(path) => output::save(path, only(&spec, args.format).as_bytes(), existing)?,
-        None if spec.count() == 1 => output::print(&only(&spec, args.format))?,
+        None if spec.count() == 1 => output::print_data(&only(&spec, args.format))?,
         None => {
             let message = format!("{} mazes do not fit on standard output", spec.count());
             return Err(Failure::usage(message).hint("name a folder for them with --output"));
@@ -169,9 +170,10 @@ fn save_all(
     existing: Existing,
 ) -> Result<Exit, Failure> {
     std::fs::create_dir_all(folder).map_err(|error| {
-        Failure::internal(format!(
-            "failed to make folder `{}`: {error}",
-            folder.display()
+        Failure::internal(text!(
+            "failed to make folder `{}`: {}",
+            Text::of_path(folder),
+            error
         ))
     })?;
     let file = |name: &str| folder.join(file_name(name, format));
@@ -179,23 +181,28 @@ fn save_all(
     if existing == Existing::Keep
         && let Some(file) = files.find(|file| file.exists())
     {
-        let message = format!(
+        let message = text!(
             "failed to write `{}`: the file already exists",
-            file.display()
+            Text::of_path(&file)
         );
         return Err(Failure::input(message).hint("replace it with --force"));
     }
-    let (count, folder) = (spec.count(), folder.display());
+    let (count, shown) = (spec.count(), Text::of_path(folder));
     let interrupted = interrupt::listen()?;
     for (written, generated) in spec.expand().enumerate() {
         let (name, maze) = (generated.to_string(), generated.generate());
         if interrupted.is_set() {
-            message!("interrupted: wrote {written} of {count} mazes to {folder}");
+            message!(
+                "interrupted: wrote {} of {} mazes to {}",
+                written,
+                count,
+                shown
+            );
             return Ok(Exit::Interrupted);
         }
         output::save(&file(&name), text(&maze, format).as_bytes(), existing)?;
     }
-    message!("wrote {count} mazes to {folder}");
+    message!("wrote {} mazes to {}", count, shown);
     Ok(Exit::Success)
 }
 

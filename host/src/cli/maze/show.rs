@@ -100,7 +100,7 @@ pub fn run(args: Args) -> Result<Exit, Failure> {
     let mazes = mazes::load_all(&args.mazes, Legality::from_flag(args.lenient))?;
     match &args.svg {
         Some(file) => save_svg(&mazes, file, &args)?,
-        None => output::print(&texts(&mazes, &args))?,
+        None => output::print_data(&texts(&mazes, &args))?,
     }
     Ok(Exit::Success)
 }
@@ -112,7 +112,7 @@ fn save_svg(mazes: &[NamedMaze], file: &Path, args: &Args) -> Result<(), Failure
     };
     let svg = picture(named, args).to_svg();
     if file == Path::new("-") {
-        return output::print(&svg);
+        return output::print_data(&svg);
     }
     let existing = if args.force {
         Existing::Replace
