@@ -4,6 +4,7 @@
 
 use std::fs;
 use std::ops::ControlFlow;
+use std::os::unix::fs::PermissionsExt as _;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -26,7 +27,7 @@ use wasmouse_engine::{
 use wasmouse_tests::slow::pointer_chaser;
 
 use crate::binary::{Ran, ran, wasmouse};
-use crate::matches::{WORKER, generated_mazes, rules};
+use crate::matches::{WORKER, generated_mazes, rules, sandboxed};
 
 const SECOND: Duration = Duration::from_secs(1);
 
@@ -335,4 +336,33 @@ fn cancelling_ends_matches_in_progress() {
         matches!(refused, InfrastructureError::Cancelled),
         "{refused}"
     );
+}
+
+/// A worker may do its work in a process that it has started, whose time counts too.
+#[test]
+fn the_time_of_an_inner_process_counts() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let script = folder.path().join("worker");
+    // The shell waits for the real worker.
+    let text = format!("#!/bin/sh\n'{WORKER}' \"$@\"\nexit $?\n");
+    fs::write(&script, text).expect("a file");
+    let executable = fs::Permissions::from_mode(0o755);
+    fs::set_permissions(&script, executable).expect("its own file");
+    let executor = sandboxed(&script, None).expect("a worker starts");
+    let (_, maze) = generated_mazes("gen:tree:12:1").next().expect("one maze");
+    let robot = executor.admit(&pointer_chaser()).expect("the host works");
+    let robot = robot.unwrap_or_else(|it| panic!("{it}"));
+    robot.account().set_budget(SECOND);
+    let rules = rules(SandboxLimits::default());
+    let spec = crate::matches::spec(&rules, robot.digest(), &maze, (0, 0));
+    let mut outcomes = Vec::new();
+    let _ = executor.execute(&robot, &[spec], &mut |_, played| {
+        outcomes.push(played.map(|it| it.record));
+        ControlFlow::Continue(())
+    });
+    let [Err(InfrastructureError::Withdrawn(reason))] = &outcomes[..] else {
+        panic!("{outcomes:?}");
+    };
+    assert_eq!(*reason, Withdrawal::Spent { seconds: 1 });
+    assert!(robot.account().used() >= SECOND);
 }

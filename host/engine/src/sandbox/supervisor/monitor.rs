@@ -6,10 +6,14 @@
 //! What a worker may take is measured here and not believed: processor time comes from the
 //! operating system.
 
+#[cfg(target_os = "linux")]
+use std::fs;
 use std::io;
 use std::process::{Child, Command};
+#[cfg(target_os = "linux")]
+use std::sync::OnceLock;
 use std::sync::mpsc::{self, RecvTimeoutError, Sender, SyncSender};
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, Weak};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
@@ -163,7 +167,7 @@ impl Watched {
     /// From now on, the process may take what the limit says.
     pub(super) fn begin(&self, limit: Limit) {
         if limit.matches.is_some() {
-            self.clock.look_inside();
+            self.clock.find_inner();
         }
         let now = self.clock.time();
         let mut state = self.state();
@@ -177,16 +181,14 @@ impl Watched {
         state.killed = None;
     }
 
-    /// The next match of the exchange begins; returns the processor time of the last one.
-    pub(super) fn next_match(&self) -> Duration {
+    /// The next match of the exchange begins.
+    pub(super) fn next_match(&self) {
         let now = self.clock.time();
-        let mut state = self.state();
-        let Some(exchange) = &mut state.exchange else {
-            return Duration::ZERO;
-        };
-        exchange.charge(now);
-        exchange.deadline = Instant::now() + exchange.limit.wall;
-        now.saturating_sub(std::mem::replace(&mut exchange.began, now))
+        if let Some(exchange) = &mut self.state().exchange {
+            exchange.charge(now);
+            exchange.deadline = Instant::now() + exchange.limit.wall;
+            exchange.began = now;
+        }
     }
 
     /// The exchange is over, and the process may wait for as long as it takes.
@@ -258,46 +260,53 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Measures the processor time of a worker.
+/// Measures the processor time of a process, and of one that it has started to do its work.
 #[cfg(target_os = "linux")]
 struct ProcessClock {
     process: u32,
-    outside: Option<libc::clockid_t>,
-    /// With namespaces, the code of the worker is in a child of the process that was started.
-    inside: OnceLock<Option<libc::clockid_t>>,
+    own: Option<libc::clockid_t>,
+    inner: OnceLock<libc::clockid_t>,
 }
 
 #[cfg(target_os = "linux")]
 impl ProcessClock {
     fn of(child: &Child) -> Self {
+        let process = child.id();
         Self {
-            process: child.id(),
-            outside: clock_of(child.id()),
-            inside: OnceLock::new(),
+            process,
+            own: process_clock(process),
+            inner: OnceLock::new(),
         }
     }
 
-    /// The worker has greeted, so it has all the processes that it will have.
-    fn look_inside(&self) {
-        self.inside.get_or_init(|| {
-            let process = self.process;
-            let children = format!("/proc/{process}/task/{process}/children");
-            let children = std::fs::read_to_string(children).ok()?;
-            clock_of(children.split_whitespace().next()?.parse().ok()?)
-        });
+    /// Looks for the process that a worker in namespaces of its own has started.
+    fn find_inner(&self) {
+        if self.inner.get().is_some() {
+            return;
+        }
+        let process = self.process;
+        let children = fs::read_to_string(format!("/proc/{process}/task/{process}/children"));
+        let first = children
+            .ok()
+            .and_then(|it| it.split(' ').next()?.parse().ok());
+        if let Some(clock) = first.and_then(process_clock) {
+            // Whoever was first has found the same one.
+            let _ = self.inner.set(clock);
+        }
     }
 
-    /// The time of all its threads by now. A process is not reaped while it is watched, or ends
-    /// with the one that is, so its number means no other one.
+    /// The time of all its threads by now. The process is not reaped while it is watched, so its
+    /// number means no other one; nor is the inner one, as long as it works.
     fn time(&self) -> Duration {
-        let inside = self.inside.get().copied().flatten();
-        let time = inside.or(self.outside).and_then(crate::time::clock_time);
-        time.unwrap_or_default()
+        let inner = self.inner.get().copied();
+        let clocks = [self.own, inner].into_iter().flatten();
+        clocks.filter_map(crate::time::clock_time).sum()
     }
 }
 
+/// The clock of a process; `None` when there is no such process.
 #[cfg(target_os = "linux")]
-fn clock_of(process: u32) -> Option<libc::clockid_t> {
+fn process_clock(process: u32) -> Option<libc::clockid_t> {
     let process = libc::pid_t::try_from(process).ok()?;
     let mut clock = 0;
     // SAFETY: the call writes to `clock` and to nothing else.
@@ -315,9 +324,9 @@ impl ProcessClock {
         Self(Instant::now())
     }
 
+    fn find_inner(&self) {}
+
     fn time(&self) -> Duration {
         self.0.elapsed()
     }
-
-    fn look_inside(&self) {}
 }

@@ -267,10 +267,9 @@ impl Talk<'_> {
         }
     }
 
-    /// The next match of the exchange begins, with the whole limit; returns the processor time of
-    /// the last one.
-    pub(super) fn next_match(&self) -> Duration {
-        self.watched.next_match()
+    /// The next match of the exchange begins, with the whole limit.
+    pub(super) fn next_match(&self) {
+        self.watched.next_match();
     }
 }
 
