@@ -1,14 +1,15 @@
 //! Gives the crate an identity of its sources, `WASMOUSE_BUILD_ID`: what one build wrote into
 //! the cache of compiled robots, another must not believe.
 
+use std::env;
 use std::fs;
 use std::hash::{Hash as _, Hasher as _};
 use std::path::{Path, PathBuf};
 
 fn main() {
-    let crates = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let engine = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
     // The core too: rules and limits are there.
-    let folders = [crates.join("src"), crates.join("../core/src")];
+    let folders = [engine.join("src"), engine.join("../core/src")];
     let mut files = Vec::new();
     for folder in folders {
         // A published crate does not have its neighbour, whose version it names instead.

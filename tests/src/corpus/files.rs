@@ -96,7 +96,7 @@ fn other_files() -> Vec<Case> {
 
 /// Machine code as it is in the cache of a host.
 fn precompiled() -> Vec<u8> {
-    const DIGEST_BYTES: usize = 32;
+    const HEADER_BYTES: usize = 160;
     let folder = tempfile::tempdir().expect("a temporary folder");
     let cache = Cache::open(folder.path().join("cache")).expect("a cache");
     let runtime = Runtime::new(Limits::default(), 1, Some(cache)).expect("a runtime");
@@ -106,7 +106,7 @@ fn precompiled() -> Vec<u8> {
     let mut entries = fs::read_dir(folder.path().join("cache")).expect("a cache");
     let entry = entries.next().expect("the compiled robot").expect("a file");
     let artifact = fs::read(entry.path()).expect("the entry");
-    artifact[DIGEST_BYTES..].to_vec()
+    artifact[HEADER_BYTES..].to_vec()
 }
 
 /// A cut file is rejected, or harmless where only names and notes are missing.
