@@ -1,25 +1,17 @@
 //! [`precheck`]: reads a file once and compares what it holds with the limits.
 
-use wasmparser::{Encoding, Parser, Payload, ValidPayload, Validator, WasmFeatures};
+use wasmparser::{Encoding, Parser, Payload, ValidPayload, Validator};
 
 use super::super::place::FunctionPlace;
 use super::super::rejection::Rejection;
 use super::component::Components;
+use super::features::FEATURES;
 use super::function::Functions;
 use super::measure::{Gauge, Measure};
 use super::module::Module;
 use super::names;
 use super::shape::Shape;
 use crate::limits::Limits;
-
-/// The proposals that a robot may use: those that `compiler_config` leaves on.
-/// What this lets through by mistake, the engine rejects when it compiles.
-pub(super) const FEATURES: WasmFeatures = WasmFeatures::WASM2
-    .union(WasmFeatures::TAIL_CALL)
-    .union(WasmFeatures::EXTENDED_CONST)
-    .union(WasmFeatures::MULTI_MEMORY)
-    .union(WasmFeatures::COMPONENT_MODEL)
-    .difference(WasmFeatures::GC_TYPES);
 
 /// Checks a component or a core module.
 ///

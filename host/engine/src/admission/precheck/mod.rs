@@ -74,6 +74,7 @@ mod context;
 mod cost;
 mod declared;
 mod expansion;
+mod features;
 mod flow;
 mod function;
 mod items;
