@@ -159,7 +159,7 @@ fn bombs_are_rejected_for_what_makes_them_one() {
         ),
         (bombs::module_types(900, 100), "component items"),
         (
-            bombs::adapters(1000, 2),
+            bombs::adapters(600, 2),
             "lowered functions after instantiation",
         ),
         (bombs::doubled_tuple(16), "parts in a component type"),
