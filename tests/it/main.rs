@@ -22,6 +22,8 @@ mod core_crate;
 mod corpus;
 /// The same results from any number of jobs, in process and in workers.
 mod determinism;
+/// The same results on other processors, in an emulator.
+mod emulation;
 /// Every bundled robot: the same match natively, correct maps, and who must finish.
 mod every_robot;
 /// Killed processes, full disks, damaged files.
@@ -54,6 +56,8 @@ mod precheck;
 mod projects;
 /// The commands of the README.
 mod readme;
+/// The depth of recursion, which depends on what code is compiled for.
+mod recursion;
 /// The page that compares the bundled robots with the published reports.
 mod reference;
 /// Rejections that depend on the limits or the version.
