@@ -312,6 +312,14 @@ fn segments() -> Vec<Case> {
     ]
 }
 
+/// What the compiler makes of the host for a function that prepares 100,000 elements, in MiB.
+const ELEMENTS_MEMORY: u64 = 900;
+
+/// A file that a limit on elements rejects before it comes to its fuel.
+fn too_many_elements() -> serde_json::Value {
+    rejected("over-limit", "the file has ...")
+}
+
 /// What is prepared for each match before anything runs.
 fn instantiation() -> Vec<Case> {
     let functions = |count| format!("(func $f) (elem func {})", "$f ".repeat(count));
@@ -340,7 +348,9 @@ fn instantiation() -> Vec<Case> {
             "100000-passive-elements-in-60-instances",
             out_of_start_fuel("instantiate"),
             move || instances(60, &functions(100_000)),
-        ),
+        )
+        .or(too_many_elements())
+        .megabytes(ELEMENTS_MEMORY),
         Case::new(
             &[33],
             "1000-passive-elements-in-60-instances",
@@ -352,7 +362,9 @@ fn instantiation() -> Vec<Case> {
             "60-instances-that-fill-one-table",
             out_of_start_fuel("instantiate"),
             move || instances(60, &into_imported(90_000)),
-        ),
+        )
+        .or(too_many_elements())
+        .megabytes(ELEMENTS_MEMORY),
         // Too far apart for an image, so they are copied for each match.
         Case::new(
             &[33],
