@@ -141,7 +141,7 @@ fn types() -> Vec<Case> {
         before(
             "doubling-tuples",
             &[65],
-            invalid("effective type size exceeds the limit of 1000000"),
+            over_limit("... parts of component types to compare", 1_000_000),
             || {
                 let mut text = "(type $t0 (tuple u8 u8))".to_owned();
                 for level in 1..40 {

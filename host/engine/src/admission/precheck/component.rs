@@ -60,13 +60,15 @@ impl Components {
         gauge: &mut Gauge<'_>,
     ) -> Result<bool, Rejection> {
         let is_outermost = self.expansion.depth() == 1;
+        let start = payload.as_section().map_or(0, |(_, range)| range.start);
+        self.add_items(items(payload).into(), gauge, start)?;
         match payload {
             Payload::CoreTypeSection(section) => each(section, file, |byte, ty, alone| {
                 self.core_type(&ty, gauge, byte)?;
                 Ok(validator.core_type_section(&SectionLimited::new(alone)?)?)
             })?,
             Payload::ComponentTypeSection(section) => each(section, file, |byte, ty, alone| {
-                self.add_items(1 + declarations(&ty), gauge, byte)?;
+                self.add_items(declarations(&ty), gauge, byte)?;
                 core_types(&ty, gauge, byte)?;
                 let work = Declared::work(&ty, validator, &mut self.parts);
                 gauge.add(Measure::TypeWork, work, byte)?;
@@ -84,7 +86,7 @@ impl Components {
             }
             Payload::ComponentAliasSection(section) => {
                 each(section, file, |byte, alias, alone| {
-                    self.add_items(1, gauge, byte)?;
+                    gauge.add(Measure::TypeWork, 1, byte)?;
                     self.expansion.alias(&alias);
                     Ok(validator.component_alias_section(&SectionLimited::new(alone)?)?)
                 })?
@@ -92,7 +94,7 @@ impl Components {
             Payload::ComponentImportSection(section) => {
                 each(section, file, |byte, import, alone| {
                     let name = import.name.name;
-                    self.named(name, gauge, byte)?;
+                    gauge.note(Measure::NameBytes, count(name.len()), byte)?;
                     self.expansion.import(import.ty);
                     let parts = &mut self.parts;
                     let of = |types| parts.of_reference(types, &import.ty);
@@ -108,7 +110,7 @@ impl Components {
             Payload::ComponentExportSection(section) => {
                 each(section, file, |byte, export, alone| {
                     let name = export.name.name;
-                    self.named(name, gauge, byte)?;
+                    gauge.note(Measure::NameBytes, count(name.len()), byte)?;
                     self.expansion.export(export.kind, export.index);
                     let parts = &mut self.parts;
                     let found = validator.types(0).map_or(1, |types| {
@@ -132,7 +134,7 @@ impl Components {
             _ => return Ok(false),
         }
         // Whether a section of its kind may stand here is not known from no items.
-        Ok(payload_has_items(payload))
+        Ok(items(payload) > 0)
     }
 
     fn core_type(
@@ -145,7 +147,7 @@ impl Components {
             CoreType::Module(inner) => count(inner.len()),
             CoreType::Rec(_) => 0,
         };
-        self.add_items(1 + inner, gauge, byte)?;
+        self.add_items(inner, gauge, byte)?;
         core_type(ty, gauge, byte)?;
         gauge.add(Measure::TypeWork, of_core_type(ty), byte)
     }
@@ -157,7 +159,6 @@ impl Components {
         gauge: &mut Gauge<'_>,
         byte: u64,
     ) -> Result<(), Rejection> {
-        self.add_items(1, gauge, byte)?;
         self.expansion
             .core_instance(instance)
             .map_err(|unknown| unknown.reject(byte))?;
@@ -178,7 +179,6 @@ impl Components {
         gauge: &mut Gauge<'_>,
         byte: u64,
     ) -> Result<(), Rejection> {
-        self.add_items(1, gauge, byte)?;
         self.expansion
             .instance(instance)
             .map_err(|unknown| unknown.reject(byte))?;
@@ -212,7 +212,6 @@ impl Components {
         gauge: &mut Gauge<'_>,
         byte: u64,
     ) -> Result<(), Rejection> {
-        self.add_items(1, gauge, byte)?;
         let Some(types) = validator.types(0) else {
             return Ok(());
         };
@@ -240,11 +239,6 @@ impl Components {
         gauge.note(Measure::TypeParts, parts, byte)
     }
 
-    fn named(&mut self, name: &str, gauge: &mut Gauge<'_>, byte: u64) -> Result<(), Rejection> {
-        gauge.note(Measure::NameBytes, count(name.len()), byte)?;
-        self.add_items(1, gauge, byte)
-    }
-
     fn add_items(&mut self, items: u64, gauge: &mut Gauge<'_>, byte: u64) -> Result<(), Rejection> {
         if let Some(requirements) = self.expansion.requirements() {
             requirements.items = requirements.items.saturating_add(items);
@@ -260,10 +254,19 @@ const FUNCTION_BYTES: u64 = 128;
 /// component to component, its imports, and a function for every encoding of strings.
 const ADAPTER_BYTES: u64 = 1_600;
 
-fn payload_has_items(payload: &Payload<'_>) -> bool {
-    payload
-        .as_section()
-        .is_some_and(|(_, range)| !range.is_empty())
+/// The number of items in a section of a component.
+fn items(payload: &Payload<'_>) -> u32 {
+    match payload {
+        Payload::CoreTypeSection(section) => section.count(),
+        Payload::ComponentTypeSection(section) => section.count(),
+        Payload::InstanceSection(section) => section.count(),
+        Payload::ComponentInstanceSection(section) => section.count(),
+        Payload::ComponentAliasSection(section) => section.count(),
+        Payload::ComponentImportSection(section) => section.count(),
+        Payload::ComponentExportSection(section) => section.count(),
+        Payload::ComponentCanonicalSection(section) => section.count(),
+        _ => 0,
+    }
 }
 
 /// Counts the core types that a type declares.

@@ -229,9 +229,11 @@ impl<'a, 'v> Declared<'a, 'v> {
                 payloads.saturating_add(count(cases.len()))
             }
             Type::Tuple(types) => self.sum(types.iter().copied()),
-            Type::List(ty) | Type::Option(ty) => self.sum([*ty].into_iter()),
+            // Validation rejects lists of a fixed length.
+            Type::List(ty) | Type::Option(ty) | Type::FixedLengthList(ty, _) => {
+                self.sum([*ty].into_iter())
+            }
             Type::Map(key, value) => self.sum([*key, *value].into_iter()),
-            Type::FixedLengthList(ty, length) => self.value(*ty).saturating_mul((*length).into()),
             Type::Flags(names) | Type::Enum(names) => count(names.len()),
             Type::Result { ok, err } => self.sum([*ok, *err].into_iter().flatten()),
             Type::Future(ty) | Type::Stream(ty) => self.sum((*ty).into_iter()),
