@@ -134,6 +134,9 @@ impl Climb {
         loop {
             for best in &mut best {
                 self.change(best, &mut worst);
+                if self.duration.is_some() {
+                    println!("{worst}");
+                }
             }
             let Some(duration) = self.duration else {
                 return worst;
