@@ -67,9 +67,14 @@ impl Engine {
             Ok(robot) => robot,
             Err(rejection) => panic!("rejected: {rejection}"),
         };
+        self.play_admitted(&robot)
+    }
+
+    /// Plays a robot of this engine in the first bundled maze.
+    pub fn play_admitted(&self, robot: &AdmittedRobot) -> DetailedMatch {
         let (_, maze) = &bundled_mazes()[0];
         let spec = spec(&self.rules, robot.digest(), maze, (0, 0));
-        let played = self.executor.execute_with_details(&robot, &spec);
+        let played = self.executor.execute_with_details(robot, &spec);
         played.expect("the host works")
     }
 

@@ -20,8 +20,9 @@ fn images_of_memories_are_private_and_never_executable() {
         rest: &format!(r#"(data (i32.const 4096) "{text}")"#),
         ..Module::default()
     };
-    let robot = with_image.component();
-    engine.play(&robot);
+    let robot = engine.admit(&with_image.component());
+    let robot = robot.expect("a robot without imports");
+    engine.play_admitted(&robot);
     let maps = fs::read_to_string("/proc/self/maps").expect("Linux has it");
     let mut images = 0;
     for line in maps.lines() {
@@ -36,6 +37,6 @@ fn images_of_memories_are_private_and_never_executable() {
             );
         }
     }
-    // The slot of the match keeps the image for the next one.
+    // The slot of the match keeps the image for the next one, as long as the robot is there.
     assert!(images > 0, "no image is mapped:\n{maps}");
 }

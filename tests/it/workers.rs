@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::Arc;
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use wasmouse_core::game::SandboxLimits;
 use wasmouse_core::maze::{Cell, Heading, Maze, Walls};
@@ -178,6 +178,11 @@ fn a_worker_runs_one_robot() {
         for (played, robot) in ["flood", "dfs", "random"].into_iter().enumerate() {
             play(&executor, &mazes()[..1], &[robot], &[0]);
             let expected = if round == 0 { played + 1 } else { 3 };
+            // What a compile worker has started ends a moment after it.
+            let deadline = Instant::now() + Duration::from_secs(30);
+            while program.processes().len() != expected * of_one && Instant::now() < deadline {
+                thread::sleep(Duration::from_millis(5));
+            }
             assert_eq!(program.processes().len(), expected * of_one, "{robot}");
         }
     }

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use super::super::protocol::{CompileOrder, Compiled, Examined};
 use super::super::role::{COMPILE_CPU_SECONDS, COMPILE_MEMORY_BYTES, Role, SandboxStatus};
+use super::host_memory::can_provide;
 use super::monitor::{Kill, Limit};
 use super::process::{Process, Starter, Talk, WorkerExit};
 use crate::admission::{OUT_OF_PROCESSOR_TIME, Rejection};
@@ -83,7 +84,7 @@ impl Compiler<'_> {
             }
             // Being killed from outside says nothing about the file, unless it goes on.
             if begun && (tries == TRIES || !exit.is_kill()) {
-                return Ok(Err(rejection(&exit)));
+                return rejection(&exit).map(Err);
             }
         }
     }
@@ -169,17 +170,25 @@ fn receive_code(
 }
 
 /// The rejection of a file that its compile worker did not survive.
-fn rejection(exit: &WorkerExit) -> Rejection {
-    Rejection::Uncompilable(if exit.killed.is_some() {
-        format!("takes more than {} s", COMPILE_TIME_MAX.as_secs())
-    } else if exit.is_out_of_processor_time() {
+///
+/// # Errors
+///
+/// When the worker ended for a reason that need not be the file's: somebody killed it, it stood
+/// still, or the host has less memory than a compile worker may use.
+fn rejection(exit: &WorkerExit) -> Result<Rejection, InfrastructureError> {
+    let is_out_of_memory = exit.is_out_of_memory();
+    let reason = if exit.is_out_of_processor_time() {
         format!("takes more than {COMPILE_CPU_SECONDS} {OUT_OF_PROCESSOR_TIME}")
-    } else if exit.stderr.contains("memory allocation of") {
-        format!(
-            "takes more than {} MiB of memory",
-            COMPILE_MEMORY_BYTES >> 20
-        )
-    } else {
+    } else if is_out_of_memory && can_provide(COMPILE_MEMORY_BYTES) {
+        let megabytes = COMPILE_MEMORY_BYTES >> 20;
+        format!("takes more than {megabytes} MiB of memory")
+    } else if !is_out_of_memory && (exit.is_crash() || exit.is_panic()) {
         format!("crashes the compiler ({exit})")
-    })
+    } else {
+        return Err(InfrastructureError::Worker {
+            role: Role::Compile.name(),
+            reason: exit.to_string(),
+        });
+    };
+    Ok(Rejection::Uncompilable(reason))
 }

@@ -5,6 +5,7 @@ mod api;
 pub(super) mod check;
 mod compiler;
 mod group;
+mod host_memory;
 mod monitor;
 mod play;
 mod pool;

@@ -6,8 +6,6 @@
 //! What a worker may take is measured here and not believed: processor time comes from the
 //! operating system.
 
-#[cfg(target_os = "linux")]
-use std::fs;
 use std::io;
 use std::process::{Child, Command};
 #[cfg(target_os = "linux")]
@@ -16,6 +14,8 @@ use std::sync::mpsc::{self, RecvTimeoutError, Sender, SyncSender};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
+#[cfg(target_os = "linux")]
+use std::{fs, iter};
 
 use crate::time::{Account, CancelFlag};
 
@@ -260,16 +260,20 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Measures the processor time of a process, and of one that it has started to do its work.
+/// Measures the processor time of a process, and of those that it has started to do its work.
 #[cfg(target_os = "linux")]
 struct ProcessClock {
     process: u32,
     own: Option<libc::clockid_t>,
-    inner: OnceLock<libc::clockid_t>,
+    inner: OnceLock<Vec<libc::clockid_t>>,
 }
 
 #[cfg(target_os = "linux")]
 impl ProcessClock {
+    /// How many processes deep a worker may be. In namespaces of its own it is in one that it
+    /// has started; a wrapper around the program adds another.
+    const DEPTH_MAX: usize = 4;
+
     fn of(child: &Child) -> Self {
         let process = child.id();
         Self {
@@ -279,29 +283,31 @@ impl ProcessClock {
         }
     }
 
-    /// Looks for the process that a worker in namespaces of its own has started.
+    /// Looks for the processes that a worker has started before it greeted.
     fn find_inner(&self) {
-        if self.inner.get().is_some() {
-            return;
-        }
-        let process = self.process;
-        let children = fs::read_to_string(format!("/proc/{process}/task/{process}/children"));
-        let first = children
-            .ok()
-            .and_then(|it| it.split(' ').next()?.parse().ok());
-        if let Some(clock) = first.and_then(process_clock) {
-            // Whoever was first has found the same one.
-            let _ = self.inner.set(clock);
-        }
+        self.inner.get_or_init(|| {
+            let inner = iter::successors(first_child(self.process), |it| first_child(*it));
+            inner
+                .take(Self::DEPTH_MAX)
+                .filter_map(process_clock)
+                .collect()
+        });
     }
 
     /// The time of all its threads by now. The process is not reaped while it is watched, so its
-    /// number means no other one; nor is the inner one, as long as it works.
+    /// number means no other one; nor are the inner ones, as long as they work.
     fn time(&self) -> Duration {
-        let inner = self.inner.get().copied();
-        let clocks = [self.own, inner].into_iter().flatten();
+        let inner = self.inner.get().into_iter().flatten().copied();
+        let clocks = self.own.into_iter().chain(inner);
         clocks.filter_map(crate::time::clock_time).sum()
     }
+}
+
+/// The process that this one has started first.
+#[cfg(target_os = "linux")]
+fn first_child(process: u32) -> Option<u32> {
+    let children = fs::read_to_string(format!("/proc/{process}/task/{process}/children"));
+    children.ok()?.split_whitespace().next()?.parse().ok()
 }
 
 /// The clock of a process; `None` when there is no such process.

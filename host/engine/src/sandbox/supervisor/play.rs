@@ -176,7 +176,8 @@ impl Pool {
             if exit.killed.is_some() {
                 return Err(self.given_up(&exit, robot));
             }
-            if exit.is_crash() {
+            // No robot can use up the memory of a worker, so that is the host's.
+            if exit.is_crash() && !exit.is_out_of_memory() {
                 return Ok(crashed(&exit, spec, recording));
             }
             if tries == TRIES || !exit.is_kill() {

@@ -67,6 +67,9 @@ pub(super) const START_TIME_MAX: Duration = Duration::from_secs(30);
 /// How much of a worker's standard error is kept, in bytes.
 const STDERR_BYTES_MAX: u64 = 4 << 10;
 
+/// What is added to it when the worker's control group had no memory left.
+const OUT_OF_GROUP_MEMORY: &str = "its control group ran out of memory";
+
 /// The program that workers are started from.
 #[derive(Clone, Debug)]
 pub struct Executable(PathBuf);
@@ -205,7 +208,8 @@ impl Process {
             .take(STDERR_BYTES_MAX)
             .read_to_end(&mut stderr);
         if self.group.as_ref().is_some_and(Group::is_out_of_memory) {
-            stderr.extend_from_slice(b"\nits control group ran out of memory");
+            stderr.push(b'\n');
+            stderr.extend_from_slice(OUT_OF_GROUP_MEMORY.as_bytes());
         }
         WorkerExit {
             status,
@@ -350,6 +354,16 @@ impl WorkerExit {
         }
         #[cfg(not(unix))]
         self.status.is_some_and(|status| !status.success())
+    }
+
+    /// Whether it was refused memory.
+    pub(super) fn is_out_of_memory(&self) -> bool {
+        self.stderr.contains("memory allocation of") || self.stderr.contains(OUT_OF_GROUP_MEMORY)
+    }
+
+    /// Whether it panicked, by the exit code that Rust programs then have.
+    pub(super) fn is_panic(&self) -> bool {
+        self.status.and_then(|status| status.code()) == Some(101)
     }
 
     /// Whether it used up its processor time.
