@@ -66,7 +66,7 @@ impl Sizes {
             .saturating_add(self.regions.saturating_mul(self.blocks) * 8)
             // Live ranges that overlap (`regalloc2::ion`), and those of them that are
             // spilled.
-            .saturating_add(self.bytes.saturating_mul(live) * 4)
+            .saturating_add(self.bytes.saturating_mul(live) * 16)
             .saturating_add(self.bytes.saturating_mul(self.bytes) / 7_000 * spilled)
             // `blockparam_ins` is scanned from its beginning for every live range
             // (`regalloc2::ion::moves`).
