@@ -26,7 +26,7 @@ pub struct Measured {
     /// The largest resident memory of the process that was started, in bytes.
     pub first_bytes: u64,
     /// The largest sum over all processes that lived at the same time, each counted
-    /// with its largest so far, in bytes.
+    /// with its largest so far, and the pages of the program once, in bytes.
     pub all_bytes: u64,
     /// Processes that were still there when the first had ended.
     pub left_behind: usize,
@@ -97,23 +97,27 @@ impl Memory {
     fn sample(&mut self, program: &Program, first: u32) {
         let mut sum = 0;
         for process in program.processes() {
-            let peak = peak_bytes(process);
+            let (peak, of_files) = resident_bytes(process);
             if process == first {
                 self.first = self.first.max(peak);
+                sum += peak;
+            } else {
+                // All processes share the pages of one program.
+                sum += peak.saturating_sub(of_files);
             }
-            sum += peak;
         }
         self.all = self.all.max(sum);
     }
 }
 
-/// The largest resident memory that a process has had, in bytes; 0 when it is gone.
-fn peak_bytes(process: u32) -> u64 {
+/// The largest resident memory that a process has had, and how much of what it has now are pages
+/// of files, in bytes; 0 when it is gone.
+fn resident_bytes(process: u32) -> (u64, u64) {
     let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
-    let line = status.lines().find(|line| line.starts_with("VmHWM:"));
-    let kilobytes = line.and_then(|line| line.split_whitespace().nth(1));
-    kilobytes
-        .and_then(|number| number.parse::<u64>().ok())
-        .unwrap_or(0)
-        << 10
+    let bytes = |name| {
+        let line = status.lines().find_map(|line| line.strip_prefix(name));
+        let kilobytes = line.and_then(|line| line.split_whitespace().next()?.parse::<u64>().ok());
+        kilobytes.unwrap_or(0) << 10
+    };
+    (bytes("VmHWM:"), bytes("RssFile:"))
 }
