@@ -7,9 +7,100 @@ use super::binary::section;
 use super::case::{Case, harmless, rejected};
 use crate::bombs;
 use crate::composite::Composite;
+use crate::module::wasm;
 
-/// The cases 70 to 78.
+/// The cases 70 to 78, and siblings that were found later.
 pub fn cases() -> Vec<Case> {
+    [listed(), unloadable(), siblings()]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+/// Modules that nobody instantiates and that the engine would refuse to load all the same.
+fn unloadable() -> Vec<Case> {
+    let unloadable = |name: &str, what: &str, make: fn() -> String| {
+        let expected = rejected("over-limit", &format!("the file has ... {what} (...)"));
+        let module = move || wasm(&format!("(module {})", make()));
+        Case::new(&[], name, expected, move || beside(&module()))
+    };
+    vec![
+        unloadable(
+            "unused-9-memories",
+            "linear memories, and the limit is 8",
+            || "(memory 1)".repeat(9),
+        ),
+        unloadable("unused-17-tables", "tables, and the limit is 16", || {
+            "(table 1 funcref)".repeat(17)
+        }),
+        unloadable(
+            "unused-table-of-10-million",
+            "elements of one table at the start, and the limit is 100000",
+            || "(table 10000000 funcref)".to_owned(),
+        ),
+        unloadable(
+            "unused-memory-of-4-gib",
+            "bytes of one linear memory at the start, and the limit is 268435456",
+            || "(memory 65536)".to_owned(),
+        ),
+        unloadable(
+            "unused-66000-globals",
+            "bytes of state of one core instance, and the limit is 1048576",
+            || "(global i32 (i32.const 0))".repeat(66_000),
+        ),
+        unloadable(
+            "unused-33000-exports",
+            "bytes of state of one core instance, and the limit is 1048576",
+            || {
+                let exports = (0..33_000).map(|at| format!("(func (export \"{at}\"))"));
+                exports.collect()
+            },
+        ),
+        unloadable(
+            "unused-30000-imports",
+            "bytes of state of one core instance, and the limit is 1048576",
+            || {
+                let imports = (0..30_000).map(|at| format!("(import \"a\" \"{at}\" (func))"));
+                imports.collect()
+            },
+        ),
+    ]
+}
+
+/// Files whose cost is in something else than their functions.
+fn siblings() -> Vec<Case> {
+    let over = |name: &str, make: fn() -> Vec<u8>| {
+        Case::new(&[], name, rejected("over-limit", "the file has ..."), make)
+    };
+    vec![
+        over("40000-globals-of-functions", || {
+            beside(&bombs::reference_globals(40_000))
+        }),
+        over("40000-globals-written", || {
+            beside(&bombs::written_globals(40_000, 0))
+        }),
+        over("60-segments-of-90000-elements", || {
+            beside(&bombs::passive_elements(60, 90_000))
+        }),
+        over("sparse-memories", || bombs::sparse_memories(150, 8)),
+        over("sparse-tables", || bombs::sparse_tables(150, 16, 100_000)),
+        over("function-types-of-many-modules", || {
+            bombs::function_types(30, 4000, 100)
+        }),
+        over("instance-types-that-are-compared", || {
+            bombs::compared_instances(100, 10, 10)
+        }),
+        over("component-types-that-double", || {
+            bombs::doubled_instances(30)
+        }),
+        // Its branches are counted, and there are not too many.
+        Case::new(&[], "br-tables-with-values", harmless(), || {
+            beside(&bombs::equal_targets(100, 1000, 100))
+        }),
+    ]
+}
+
+fn listed() -> Vec<Case> {
     let bomb = |numbers, name: &str, what: &str, make: fn() -> Vec<u8>| {
         let reason = format!("the file has ... {what} (...)");
         let expected = rejected("over-limit", &reason);
