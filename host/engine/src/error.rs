@@ -16,6 +16,9 @@ pub enum InfrastructureError {
     /// A thread could not be started.
     #[error("failed to start a thread: {0}")]
     Thread(#[source] io::Error),
+    /// Compiled code could not be loaded for a reason of the host.
+    #[error("failed to load compiled code: {0}")]
+    Load(String),
     /// A call into a robot failed for a reason of the host.
     #[error("failed to call the robot: {0}")]
     Call(String),

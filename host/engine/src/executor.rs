@@ -14,7 +14,7 @@ use crate::admission::{Inspection, Rejection, examine, world};
 use crate::error::InfrastructureError;
 use crate::limits::Limits;
 use crate::runner::Recording;
-use crate::runtime::{Cache, CacheUse, CompiledRobot, Frame, Runtime};
+use crate::runtime::{AdmissionError, Cache, CacheUse, CompiledRobot, Frame, Runtime};
 use crate::sandbox::{SandboxStatus, SandboxedRobot, Supervisor, WorkerOptions};
 use crate::time::{Account, Control, MatchClock};
 
@@ -202,11 +202,14 @@ impl InProcess {
 
 impl Executor for InProcess {
     fn admit(&self, file: &[u8]) -> Result<Result<AdmittedRobot, Rejection>, InfrastructureError> {
-        let admitted = self.runtime.admit(file);
-        Ok(admitted.map(|robot| AdmittedRobot {
-            handle: Handle::InProcess(Box::new(robot)),
-            account: Arc::default(),
-        }))
+        match self.runtime.admit(file) {
+            Ok(robot) => Ok(Ok(AdmittedRobot {
+                handle: Handle::InProcess(Box::new(robot)),
+                account: Arc::default(),
+            })),
+            Err(AdmissionError::Rejected(rejection)) => Ok(Err(rejection)),
+            Err(AdmissionError::Host(error)) => Err(error),
+        }
     }
 
     fn inspect(&self, file: &[u8]) -> Result<Inspection, InfrastructureError> {
@@ -214,13 +217,17 @@ impl Executor for InProcess {
         let mut inspection = Inspection::new(file);
         inspection.kind = examination.kind;
         inspection.shape = examination.shape;
-        let admitted = examination.component.and_then(|component| {
-            inspection.wit = world(&component);
-            self.runtime.admit(file)
-        });
+        let admitted = match examination.component {
+            Ok(component) => {
+                inspection.wit = world(&component);
+                self.runtime.admit(file)
+            }
+            Err(rejection) => Err(rejection.into()),
+        };
         match admitted {
             Ok(robot) => inspection.requirements = robot.requirements(),
-            Err(rejection) => inspection.rejection = Some(rejection),
+            Err(AdmissionError::Rejected(rejection)) => inspection.rejection = Some(rejection),
+            Err(AdmissionError::Host(error)) => return Err(error),
         }
         Ok(inspection)
     }

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use super::{Played, limits, modules, play};
 use crate::admission::{ComponentizeError, Rejection};
 use crate::bundled::find;
-use crate::runtime::{CompiledRobot, Runtime};
+use crate::runtime::{AdmissionError, CompiledRobot, Runtime};
 
 struct Fixture {
     runtime: Runtime,
@@ -34,10 +34,11 @@ pub fn matches(bytes: &[u8]) -> bool {
     let fixture = &*FIXTURE;
     let robot = match fixture.runtime.admit(&file) {
         Ok(robot) => robot,
-        Err(rejection) => {
+        Err(AdmissionError::Rejected(rejection)) => {
             check_rejection(&rejection);
             return false;
         }
+        Err(AdmissionError::Host(error)) => panic!("{error}"),
     };
     let played = play(&fixture.runtime, &robot);
     assert_eq!(play(&fixture.runtime, &robot), played, "a second time");

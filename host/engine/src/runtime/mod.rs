@@ -29,4 +29,4 @@ pub(crate) use config::new_compiler;
 pub use config::{ENGINE_REVISION, WASMTIME_VERSION, engine_config, engine_id};
 pub(crate) use fault::{classify, out_of_fuel};
 pub(crate) use guest::Guest;
-pub use robot::{CacheUse, CompiledRobot, Runtime};
+pub use robot::{AdmissionError, CacheUse, CompiledRobot, Runtime};

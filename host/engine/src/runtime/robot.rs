@@ -1,5 +1,8 @@
 //! [`Runtime`]: an engine in this process, and the robots that were compiled for it.
 
+use std::error::Error;
+use std::io;
+
 use wasmouse_core::Digest;
 use wasmtime::component::{Component, InstancePre, Linker};
 use wasmtime::{Engine, Store};
@@ -49,6 +52,40 @@ pub enum CacheUse {
     Failed(String),
 }
 
+/// Why a file is not admitted.
+#[derive(Debug, thiserror::Error)]
+pub enum AdmissionError {
+    /// It cannot be a robot.
+    #[error(transparent)]
+    Rejected(#[from] Rejection),
+    /// The host could not find out.
+    #[error(transparent)]
+    Host(#[from] InfrastructureError),
+}
+
+impl AdmissionError {
+    /// What it means that the engine does not take a component: what the operating system
+    /// refuses, above all memory for the code, is not the fault of the component.
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "used as a function in map_err"
+    )]
+    fn of_engine(error: wasmtime::Error) -> Self {
+        let is_of_system = |cause: &(dyn Error + 'static)| {
+            #[cfg(unix)]
+            if cause.is::<rustix::io::Errno>() {
+                return true;
+            }
+            cause.is::<io::Error>()
+        };
+        if error.chain().any(is_of_system) {
+            Self::Host(InfrastructureError::Load(format!("{error:#}")))
+        } else {
+            Self::Rejected(Rejection::Invalid(format!("{error:#}")))
+        }
+    }
+}
+
 /// A page of linear memory, in bytes.
 const PAGE_BYTES: u64 = 64 << 10;
 
@@ -62,10 +99,11 @@ impl Runtime {
     ///
     /// ```
     /// use wasmouse_engine::admission::Rejection;
-    /// use wasmouse_engine::{Limits, Runtime};
+    /// use wasmouse_engine::{AdmissionError, Limits, Runtime};
     ///
     /// let runtime = Runtime::new(Limits::default(), 1, None).expect("address space");
-    /// assert!(matches!(runtime.admit(b""), Err(Rejection::Empty)));
+    /// let admitted = runtime.admit(b"");
+    /// assert!(matches!(admitted, Err(AdmissionError::Rejected(Rejection::Empty))));
     /// ```
     pub fn new(
         limits: Limits,
@@ -126,10 +164,10 @@ impl Runtime {
         &self,
         code: &[u8],
         digest: Digest,
-    ) -> Result<CompiledRobot, Rejection> {
+    ) -> Result<CompiledRobot, AdmissionError> {
         // SAFETY: the caller's promise is the one that wasmtime asks for.
-        let (compiled, startup_fuel) = unsafe { artefact::load(&self.engine, code) }
-            .map_err(|error| Rejection::Invalid(format!("{error:#}")))?;
+        let (compiled, startup_fuel) =
+            unsafe { artefact::load(&self.engine, code) }.map_err(AdmissionError::of_engine)?;
         let pre = self.link(&compiled)?;
         Ok(CompiledRobot {
             pre,
@@ -158,8 +196,8 @@ impl Runtime {
     ///
     /// # Errors
     ///
-    /// The reason why the file is rejected.
-    pub fn admit(&self, bytes: &[u8]) -> Result<CompiledRobot, Rejection> {
+    /// The reason why the file is rejected, or a failure of the host.
+    pub fn admit(&self, bytes: &[u8]) -> Result<CompiledRobot, AdmissionError> {
         let component = examine(bytes, &self.limits).component?;
         let digest = Digest::of(bytes);
         let startup_fuel = startup_fuel(&component);
@@ -178,7 +216,7 @@ impl Runtime {
         component: &[u8],
         digest: &Digest,
         startup_fuel: u64,
-    ) -> Result<(Component, CacheUse), Rejection> {
+    ) -> Result<(Component, CacheUse), AdmissionError> {
         let Some(cache) = &self.cache else {
             return Ok((self.compile_now(component)?, CacheUse::Off));
         };
@@ -194,9 +232,8 @@ impl Runtime {
         Ok((compiled, cache_use))
     }
 
-    fn compile_now(&self, component: &[u8]) -> Result<Component, Rejection> {
-        Component::from_binary(&self.engine, component)
-            .map_err(|error| Rejection::Invalid(format!("{error:#}")))
+    fn compile_now(&self, component: &[u8]) -> Result<Component, AdmissionError> {
+        Component::from_binary(&self.engine, component).map_err(AdmissionError::of_engine)
     }
 
     fn link(&self, component: &Component) -> Result<RobotPre<Guest>, Rejection> {
@@ -236,5 +273,25 @@ impl CompiledRobot {
 
     pub(crate) fn instantiate(&self, store: &mut Store<Guest>) -> wasmtime::Result<Robot> {
         self.pre.instantiate(store)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_the_system_refuses_is_not_the_robots_fault() {
+        let refused = io::Error::from(io::ErrorKind::OutOfMemory);
+        let error = wasmtime::Error::from(refused).context("failed to map code");
+        assert!(matches!(
+            AdmissionError::of_engine(error),
+            AdmissionError::Host(InfrastructureError::Load(_))
+        ));
+        let error = wasmtime::Error::msg("unknown import").context("failed to link");
+        assert!(matches!(
+            AdmissionError::of_engine(error),
+            AdmissionError::Rejected(Rejection::Invalid(_))
+        ));
     }
 }

@@ -110,6 +110,8 @@ pub(super) enum Loaded {
     Unloadable(RejectionText),
     /// The code is not what its digest says.
     Damaged,
+    /// The worker could not load it for a reason of the host.
+    Failed(String),
 }
 
 /// What a robot did in a match. The score is not in it: the supervisor replays the transcript

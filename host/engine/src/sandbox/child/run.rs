@@ -20,7 +20,7 @@ use crate::admission::Rejection;
 use crate::error::InfrastructureError;
 use crate::limits::{Limits, STACK_BYTES};
 use crate::runner::Recording;
-use crate::runtime::{CompiledRobot, Runtime, engine_id};
+use crate::runtime::{AdmissionError, CompiledRobot, Runtime, engine_id};
 use crate::time::{Control, MatchClock};
 
 /// Reports wait this long at most for others to be sent with them.
@@ -170,8 +170,11 @@ impl Table {
             }
             // From another version of wasmtime, say, or more than the pool has room for. The
             // supervisor knows how old the code is.
-            Err(rejection @ Rejection::Invalid(_)) => Loaded::Unloadable(rejection.into()),
-            Err(rejection) => Loaded::Rejected(rejection.into()),
+            Err(AdmissionError::Rejected(rejection @ Rejection::Invalid(_))) => {
+                Loaded::Unloadable(rejection.into())
+            }
+            Err(AdmissionError::Rejected(rejection)) => Loaded::Rejected(rejection.into()),
+            Err(AdmissionError::Host(error)) => Loaded::Failed(error.to_string()),
         }
     }
 

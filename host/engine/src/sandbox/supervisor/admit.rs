@@ -193,6 +193,12 @@ impl Admitter<'_> {
                         Some(Loaded::Unloadable(text)) => {
                             return Ok(Attempt::Unloadable(text.into()));
                         }
+                        Some(Loaded::Failed(reason)) => {
+                            return Err(InfrastructureError::Worker {
+                                role: Role::Run.name(),
+                                reason,
+                            });
+                        }
                         Some(Loaded::Rejected(text)) => return Ok(Attempt::Rejected(text.into())),
                         Some(Loaded::Ready(requirements)) => requirements,
                         None => None,
