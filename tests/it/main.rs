@@ -72,11 +72,11 @@ mod sandbox;
 mod sdk_arena;
 /// Where the shared material is.
 mod shared;
-/// A host that is short of memory or descriptors.
+/// A host that runs short of memory or descriptors during a match.
 mod shortage;
-/// Hosts that lack memory, descriptors or cores.
+/// Contests on hosts that lack memory, descriptors or cores.
 #[cfg(unix)]
-mod shortages;
+mod small_hosts;
 /// Robots that take very long for their fuel.
 mod slow;
 /// Optimal paths and the oracle scores of the official mazes.
