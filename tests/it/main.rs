@@ -74,11 +74,11 @@ mod sdk_arena;
 mod shared;
 /// A host that runs short of memory or descriptors during a match.
 mod shortage;
+/// Robots that take very long for their fuel.
+mod slow;
 /// Contests on hosts that lack memory, descriptors or cores.
 #[cfg(unix)]
 mod small_hosts;
-/// Robots that take very long for their fuel.
-mod slow;
 /// Optimal paths and the oracle scores of the official mazes.
 mod solver;
 /// Results on standard output, and pipes that close.
