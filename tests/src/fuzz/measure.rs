@@ -35,16 +35,30 @@ pub(super) fn engine(limits: &Limits) -> Engine {
     Engine::new(&config).expect("address space for one match")
 }
 
-/// Compiles and loads an admitted file; `None` when the compiler rejects it.
+/// Compiles and loads an admitted file; `None` when the compiler rejects it. What takes longer
+/// than its estimate is measured again, and the shorter time counts: on a virtual machine,
+/// processor time includes what other machines take.
 ///
 /// # Panics
 ///
 /// When the engine refuses to load what it has compiled, which admission has to know before.
 pub(super) fn cost(file: &[u8], estimate: f64, engine: &Engine) -> Option<Cost> {
     let component = as_component(file);
+    let cost = cost_once(&component, estimate, engine)?;
+    if cost.cpu_seconds <= estimate {
+        return Some(cost);
+    }
+    let again = cost_once(&component, estimate, engine)?;
+    Some(Cost {
+        cpu_seconds: again.cpu_seconds.min(cost.cpu_seconds),
+        ..again
+    })
+}
+
+fn cost_once(component: &[u8], estimate: f64, engine: &Engine) -> Option<Cost> {
     reset_peak();
     let begin = cpu_seconds();
-    let compiled = Component::from_binary(engine, &component);
+    let compiled = Component::from_binary(engine, component);
     let cpu_seconds = cpu_seconds() - begin;
     match compiled {
         Ok(_) => Some(Cost {
