@@ -163,7 +163,8 @@ pub struct AdmissionLimits {
     pub memory_mib_max: u32,
     /// Estimated time to compile the file, in ms: the sum over its functions. Stops
     /// files with many functions that are each just under a limit. The estimate is
-    /// an upper bound and about twice the truth for real robots. Default 65,000.
+    /// about twice the truth for real robots, and near it for the worst files that are
+    /// known, on one thread; workers compile on two. Default 65,000.
     pub work_ms_max: u32,
 }
 

@@ -2,7 +2,8 @@
 //!
 //! The estimate ([`Sizes::work_ns`]) is a sum of terms with coefficients that were
 //! measured with wasmtime 48 on a 2-core machine: generators of bad cases pushed one
-//! term at a time, and every coefficient is at or above what was found. The terms
+//! term at a time, and every coefficient was at or above what was found there. On a slower
+//! machine the worst known file takes 1.2 times its estimate. The terms
 //! that are products are the ones that make small files dangerous; each names where
 //! in Cranelift it comes from.
 
