@@ -20,7 +20,7 @@ pub(super) struct Target {
 }
 
 /// What x86-64 processors have had since 2008 to 2013, and all virtual machines have. Code for
-/// later ones (x86-64-v3, or everything that the processor at hand has) was not seen to be
+/// later ones (x86-64-v3, or everything that this machine's processor has) was not seen to be
 /// faster, in the bundled robots or in loops of floats, vectors and bit counting.
 #[cfg(target_arch = "x86_64")]
 pub(super) const TARGET: Target = Target {

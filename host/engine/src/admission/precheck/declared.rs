@@ -2,7 +2,7 @@
 //! it, known before it is validated.
 //!
 //! One declaration may contain thousands of others, each of which names the ones before it.
-//! They are gone through here once, with the size of each at hand, so that sizes that grow
+//! They are gone through here once, with the size of each known, so that sizes that grow
 //! exponentially do no harm. Like [`Parts`], for types that validation has not seen.
 
 use std::collections::HashMap;

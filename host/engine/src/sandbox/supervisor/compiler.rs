@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::super::protocol::{CompileOrder, Compiled, Examined};
 use super::super::role::{COMPILE_CPU_SECONDS, COMPILE_MEMORY_BYTES, Role, SandboxStatus};
-use super::host_memory::can_provide;
+use super::host_limits::{allows_processor_time, can_provide};
 use super::monitor::{Kill, Limit};
 use super::process::{Process, Starter, Talk, WorkerExit};
 use crate::admission::{OUT_OF_PROCESSOR_TIME, Rejection};
@@ -174,15 +174,16 @@ fn receive_code(
 /// # Errors
 ///
 /// When the worker ended for a reason that need not be the file's: somebody killed it, it stood
-/// still, or the host has less memory than a compile worker may use.
+/// still, or the host allows less memory or processor time than a compile worker may use.
 fn rejection(exit: &WorkerExit) -> Result<Rejection, InfrastructureError> {
     let is_out_of_memory = exit.is_out_of_memory();
-    let reason = if exit.is_out_of_processor_time() {
+    let is_out_of_time = exit.is_out_of_processor_time();
+    let reason = if is_out_of_time && allows_processor_time(COMPILE_CPU_SECONDS) {
         format!("takes more than {COMPILE_CPU_SECONDS} {OUT_OF_PROCESSOR_TIME}")
     } else if is_out_of_memory && can_provide(COMPILE_MEMORY_BYTES) {
         let megabytes = COMPILE_MEMORY_BYTES >> 20;
         format!("takes more than {megabytes} MiB of memory")
-    } else if !is_out_of_memory && (exit.is_crash() || exit.is_panic()) {
+    } else if !is_out_of_time && !is_out_of_memory && (exit.is_crash() || exit.is_panic()) {
         format!("crashes the compiler ({exit})")
     } else {
         return Err(InfrastructureError::Worker {

@@ -5,7 +5,7 @@ mod api;
 pub(super) mod check;
 mod compiler;
 mod group;
-mod host_memory;
+mod host_limits;
 mod monitor;
 mod play;
 mod pool;
