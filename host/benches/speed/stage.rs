@@ -103,6 +103,6 @@ pub fn play(
     recording: &mut Recording,
 ) -> (Verdict, FuelUse) {
     let ran = runtime.run(robot, spec, recording);
-    let (result, fuel) = ran.expect("the host works");
-    (result.verdict, fuel)
+    let (result, usage) = ran.expect("the host works");
+    (result.verdict, usage.fuel)
 }

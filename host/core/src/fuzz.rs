@@ -191,9 +191,8 @@ mod tests {
 
     use super::*;
     use crate::game::{Action, FaultKind, Phase, Run, Steps};
-    use crate::journal::JournalCounts;
     use crate::maze::{Turn, bundled};
-    use crate::record::{EngineId, FuelUse};
+    use crate::record::{EngineId, Usage};
 
     #[test]
     fn maze() {
@@ -362,9 +361,8 @@ mod tests {
             },
         ];
         for verdict in verdicts {
-            let fuel = FuelUse::default();
-            let counts = JournalCounts::default();
-            let mut record = MatchRecord::new(key, result.clone(), fuel, counts, &transcript);
+            let usage = Usage::default();
+            let mut record = MatchRecord::new(key, result.clone(), usage, &transcript);
             record.verdict = verdict;
             seeds.push(to_string(&record).expect("it serialises").into_bytes());
             record.steps = Steps {

@@ -188,13 +188,11 @@ impl InProcess {
             Err(error) if error.is_stall() => account.count_stall(),
             Err(_) => {}
         }
-        let (result, fuel) = ran?;
-        let journal = recording.journal.counts();
+        let (result, usage) = ran?;
         Ok(MatchRecord::new(
             spec.key,
             result,
-            fuel,
-            journal,
+            usage,
             &recording.transcript,
         ))
     }

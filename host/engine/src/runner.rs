@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use wasmouse_core::game::{FaultKind, FuelLimit, Phase, SandboxLimits, Simulation};
 use wasmouse_core::journal::Journal;
-use wasmouse_core::record::{FuelUse, GameResult, MatchSpec, Transcript};
+use wasmouse_core::record::{FuelUse, GameResult, MatchSpec, Transcript, Usage};
 use wasmtime::{Store, UpdateDeadline};
 
 use crate::error::InfrastructureError;
@@ -17,7 +17,7 @@ use crate::runtime::{
 };
 use crate::time::{Control, MatchClock};
 
-/// Everything that a match leaves behind besides its result and fuel. Reused from match to
+/// Everything that a match leaves behind besides its result and usage. Reused from match to
 /// match, so that a long contest allocates once.
 #[derive(Debug, Default)]
 pub struct Recording {
@@ -58,7 +58,7 @@ impl Runtime {
         robot: &CompiledRobot,
         spec: &MatchSpec,
         recording: &mut Recording,
-    ) -> Result<(GameResult, FuelUse), InfrastructureError> {
+    ) -> Result<(GameResult, Usage), InfrastructureError> {
         let clock = MatchClock::start(Control::default(), None);
         self.run_within(robot, spec, recording, &clock)
     }
@@ -70,7 +70,7 @@ impl Runtime {
         spec: &MatchSpec,
         recording: &mut Recording,
         clock: &Arc<MatchClock>,
-    ) -> Result<(GameResult, FuelUse), InfrastructureError> {
+    ) -> Result<(GameResult, Usage), InfrastructureError> {
         assert_eq!(
             spec.rules.sandbox,
             self.limits().sandbox,
@@ -89,7 +89,13 @@ impl Runtime {
         let mut runner = Runner::new(store, spec, recording);
         let ended = runner.run(robot, &mut simulation);
         let fuel = runner.fuel;
-        recording.journal = runner.store.into_data().journal;
+        let guest = runner.store.into_data();
+        recording.journal = guest.journal;
+        let usage = Usage {
+            fuel,
+            memory_bytes: guest.limiter.memory_bytes(),
+            journal: recording.journal.counts(),
+        };
         if let Some(stop) = ended? {
             recording
                 .transcript
@@ -97,7 +103,7 @@ impl Runtime {
         }
         let result = GameResult::new(&simulation, recording.transcript.ending())
             .expect("a match that was simulated step by step follows the rules");
-        Ok((result, fuel))
+        Ok((result, usage))
     }
 }
 

@@ -19,7 +19,7 @@ use super::sink::{ContestMatch, MatchFailure, Sink};
 use super::standings::Standings;
 
 /// The version of the document; raised when a reader of the old one would go wrong.
-pub const RESULTS_VERSION: u32 = 3;
+pub const RESULTS_VERSION: u32 = 4;
 
 /// The results of a contest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -221,12 +221,12 @@ impl<'a> Names<'a> {
 
 /// The identity of some records.
 ///
-/// Canonical encoding `wasmouse.results.1` ([`DigestBuilder`]): for each record the digests of
+/// Canonical encoding `wasmouse.results.2` ([`DigestBuilder`]): for each record the digests of
 /// its key and its transcript, then the numbers fuel of the start, fuel of all steps, fuel of
-/// the most expensive step, journal entries kept and dropped. Verdict, steps and counts follow
+/// the most expensive step, linear memory in bytes, journal entries kept and dropped. Verdict, steps and counts follow
 /// from key and transcript.
 pub fn records_digest<'a>(records: impl IntoIterator<Item = &'a MatchRecord>) -> Digest {
-    let builder = DigestBuilder::new("wasmouse.results.1");
+    let builder = DigestBuilder::new("wasmouse.results.2");
     records.into_iter().fold(builder, add_record).finish()
 }
 
@@ -238,6 +238,7 @@ fn add_record(builder: DigestBuilder, record: &MatchRecord) -> DigestBuilder {
             record.fuel.start,
             record.fuel.steps,
             record.fuel.step_max,
+            record.memory_bytes,
             record.journal.entries,
             record.journal.dropped,
         ])
@@ -257,7 +258,7 @@ impl SummaryBuilder {
     /// The summary of a contest without matches.
     pub fn new() -> Self {
         Self {
-            digest: DigestBuilder::new("wasmouse.results.1"),
+            digest: DigestBuilder::new("wasmouse.results.2"),
             mazes: Vec::new(),
             failures: Vec::new(),
             withdrawn: Vec::new(),

@@ -171,6 +171,7 @@ pub(super) mod tests {
                 steps: fuel.0,
                 step_max: fuel.1,
             },
+            memory_bytes: 65_536,
             journal: JournalCounts::default(),
             transcript: digest,
         }

@@ -83,6 +83,7 @@ pub(super) fn results() -> Results {
                 steps: u64::MAX - 1,
                 step_max: 7,
             },
+            memory_bytes: 65_536,
             journal: JournalCounts::default(),
             transcript: Digest::of(&[1]),
         });

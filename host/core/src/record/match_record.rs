@@ -23,14 +23,27 @@ pub struct FuelUse {
     pub step_max: u64,
 }
 
-/// The version of the serialised form of a [`MatchRecord`]. Serialises as the number 1;
+/// The resources that a robot used in a match: what only the engine knows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Usage {
+    /// Fuel.
+    pub fuel: FuelUse,
+    /// Linear memory at the end of the match, of all instances together, in bytes. It is also the
+    /// most that there was, because linear memory never shrinks.
+    pub memory_bytes: u64,
+    /// The size of the robot's journal.
+    pub journal: JournalCounts,
+}
+
+/// The version of the serialised form of a [`MatchRecord`]. Serialises as the number 2;
 /// deserialising another number fails.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(into = "u8", try_from = "u64")]
 pub struct RecordVersion;
 
 impl RecordVersion {
-    const NUMBER: u8 = 1;
+    const NUMBER: u8 = 2;
 }
 
 impl From<RecordVersion> for u8 {
@@ -61,9 +74,8 @@ impl TryFrom<u64> for RecordVersion {
 /// ```
 /// use wasmouse_core::Digest;
 /// use wasmouse_core::game::{Action, GameRules};
-/// use wasmouse_core::journal::JournalCounts;
 /// use wasmouse_core::maze::{Maze, Walls};
-/// use wasmouse_core::record::{FuelUse, MatchKey, MatchRecord, Transcript, replay};
+/// use wasmouse_core::record::{MatchKey, MatchRecord, Transcript, Usage, replay};
 ///
 /// let maze = Maze::contest(Walls::open(12)).expect("start and goal fit");
 /// let rules = GameRules { budget: 1, ..GameRules::default() };
@@ -72,19 +84,19 @@ impl TryFrom<u64> for RecordVersion {
 /// let result = replay(&maze, &rules, &transcript).expect("a whole match");
 /// let part = Digest::of(b"");
 /// let key = MatchKey { engine: part, rules: part, robot: part, variant: 0, maze: part, seed: 1 };
-/// let (fuel, journal) = (FuelUse::default(), JournalCounts::default());
-/// let record = MatchRecord::new(key, result, fuel, journal, &transcript);
+/// let usage = Usage { memory_bytes: 65_536, ..Usage::default() };
+/// let record = MatchRecord::new(key, result, usage, &transcript);
 ///
 /// let mut json = serde_json::to_value(&record)?;
-/// assert_eq!(json["version"], 1);
+/// assert_eq!(json["version"], 2);
 /// assert_eq!(json["verdict"]["kind"], "budget-used-up");
 /// assert_eq!(json["counts"]["resets_before_goal"], 1);
 /// assert_eq!(json["transcript"], transcript.digest().to_string());
 /// assert_eq!(serde_json::from_value::<MatchRecord>(json.clone())?, record);
 ///
-/// json["version"] = 2.into();
+/// json["version"] = 3.into();
 /// let error = serde_json::from_value::<MatchRecord>(json).expect_err("another version");
-/// assert!(error.to_string().contains("only version 1 is supported"));
+/// assert!(error.to_string().contains("only version 2 is supported"));
 /// # Ok::<(), serde_json::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -102,6 +114,8 @@ pub struct MatchRecord {
     pub counts: Counts,
     /// The fuel that the robot used.
     pub fuel: FuelUse,
+    /// The linear memory that the robot had at the end, in bytes ([`Usage::memory_bytes`]).
+    pub memory_bytes: u64,
     /// The size of the robot's journal.
     pub journal: JournalCounts,
     /// The digest of the transcript ([`Transcript::digest`]).
@@ -110,18 +124,17 @@ pub struct MatchRecord {
 
 impl MatchRecord {
     /// Combines the result of a match with what the simulation does not know.
-    pub fn new(
-        key: MatchKey,
-        result: GameResult,
-        fuel: FuelUse,
-        journal: JournalCounts,
-        transcript: &Transcript,
-    ) -> Self {
+    pub fn new(key: MatchKey, result: GameResult, usage: Usage, transcript: &Transcript) -> Self {
         let GameResult {
             verdict,
             steps,
             counts,
         } = result;
+        let Usage {
+            fuel,
+            memory_bytes,
+            journal,
+        } = usage;
         Self {
             version: RecordVersion,
             key,
@@ -129,6 +142,7 @@ impl MatchRecord {
             steps,
             counts,
             fuel,
+            memory_bytes,
             journal,
             transcript: transcript.digest(),
         }

@@ -14,7 +14,7 @@ mod tests;
 mod transcript;
 
 pub use key::{EngineId, MatchKey};
-pub use match_record::{FuelUse, MatchRecord, RecordVersion};
+pub use match_record::{FuelUse, MatchRecord, RecordVersion, Usage};
 pub use replay::{GameResult, ReplayError, replay, trace};
 pub use spec::MatchSpec;
 pub use transcript::{Ending, Transcript, TranscriptError};

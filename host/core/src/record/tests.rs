@@ -30,12 +30,12 @@ fn any_rules() -> impl Strategy<Value = GameRules> {
     )
 }
 
-fn any_record_parts() -> impl Strategy<Value = (MatchKey, FuelUse, JournalCounts)> {
+fn any_record_parts() -> impl Strategy<Value = (MatchKey, Usage)> {
     let digests = any::<[[u8; 32]; 4]>();
-    let numbers = any::<[u64; 6]>();
+    let numbers = any::<[u64; 7]>();
     (digests, any::<u32>(), numbers).prop_map(|(digests, variant, numbers)| {
         let [engine, rules, robot, maze] = digests.map(Digest::from_bytes);
-        let [seed, start, steps, step_max, entries, dropped] = numbers;
+        let [seed, start, steps, step_max, memory_bytes, entries, dropped] = numbers;
         let key = MatchKey {
             engine,
             rules,
@@ -49,7 +49,12 @@ fn any_record_parts() -> impl Strategy<Value = (MatchKey, FuelUse, JournalCounts
             steps,
             step_max,
         };
-        (key, fuel, JournalCounts { entries, dropped })
+        let usage = Usage {
+            fuel,
+            memory_bytes,
+            journal: JournalCounts { entries, dropped },
+        };
+        (key, usage)
     })
 }
 
@@ -81,7 +86,7 @@ proptest! {
         rules in any_rules(),
         actions in vec(any_action(), 120),
         fault_after in 0_usize..200,
-        (key, fuel, journal) in any_record_parts(),
+        (key, usage) in any_record_parts(),
     ) {
         let mut simulation = Simulation::new(&maze, &rules);
         let mut played = Trace::default();
@@ -107,7 +112,7 @@ proptest! {
 
         let decoded = Transcript::from_bytes(&transcript.to_bytes());
         prop_assert_eq!(decoded.as_ref(), Ok(&transcript));
-        let record = MatchRecord::new(key, result, fuel, journal, &transcript);
+        let record = MatchRecord::new(key, result, usage, &transcript);
         let json = serde_json::to_string(&record).expect("it serialises");
         let read: MatchRecord = serde_json::from_str(&json).expect("it deserialises");
         prop_assert_eq!(serde_json::to_string(&read).expect("it serialises"), json);

@@ -86,10 +86,9 @@ fn play(runtime: &Runtime, robot: &CompiledRobot) -> Played {
     let spec = spec(robot);
     let mut recording = Recording::default();
     let ran = runtime.run(robot, &spec, &mut recording);
-    let (result, fuel) = ran.expect("the host works");
-    let journal = recording.journal.counts();
+    let (result, usage) = ran.expect("the host works");
     Played {
-        record: MatchRecord::new(spec.key, result, fuel, journal, &recording.transcript),
+        record: MatchRecord::new(spec.key, result, usage, &recording.transcript),
         step_fuel: recording.step_fuel,
         journal: format!("{:?}", recording.journal.entries().collect::<Vec<_>>()),
     }

@@ -69,6 +69,13 @@ impl Limiter {
     }
 }
 
+impl Limiter {
+    /// The linear memory of the store, in bytes.
+    pub(crate) const fn memory_bytes(&self) -> u64 {
+        self.memory_bytes
+    }
+}
+
 /// The account after a growth, or `None` when the growth fails by the module's
 /// own maximum; `Err` holds what was asked for when that passes `max`.
 fn charge(

@@ -181,7 +181,7 @@ fn check_report(report: MatchReport) -> bool {
 mod tests {
     use fuzz_harness::Target;
     use wasmouse_core::game::{FaultKind, Phase};
-    use wasmouse_core::record::{FuelUse, Transcript};
+    use wasmouse_core::record::{FuelUse, Transcript, Usage};
 
     use super::super::protocol::{Compiled, MatchOrder, OwnedNote, RunBatch, RunFailure};
     use super::super::role::SandboxStatus;
@@ -343,14 +343,17 @@ mod tests {
         transcript.end_with_fault(FaultKind::Unreachable, Phase::NextMove, detail);
         MatchReport {
             transcript: Ok(transcript.to_bytes()),
-            fuel: FuelUse {
-                start: 1,
-                steps: 7,
-                step_max: 7,
-            },
-            journal: JournalCounts {
-                entries: 1,
-                dropped: 0,
+            usage: Usage {
+                fuel: FuelUse {
+                    start: 1,
+                    steps: 7,
+                    step_max: 7,
+                },
+                memory_bytes: 65_536,
+                journal: JournalCounts {
+                    entries: 1,
+                    dropped: 0,
+                },
             },
             details: details.then(|| protocol::Details {
                 step_fuel: vec![7],

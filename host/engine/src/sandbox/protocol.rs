@@ -13,9 +13,9 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use wasmouse_core::Digest;
 use wasmouse_core::game::{FaultKind, Ruleset};
-use wasmouse_core::journal::{Belief, Color, JournalCounts, Level, Note};
+use wasmouse_core::journal::{Belief, Color, Level, Note};
 use wasmouse_core::maze::{Cell, Heading};
-use wasmouse_core::record::FuelUse;
+use wasmouse_core::record::Usage;
 
 use super::role::SandboxStatus;
 use crate::admission::precheck::Shape;
@@ -120,10 +120,8 @@ pub(super) enum Loaded {
 pub(super) struct MatchReport {
     /// The encoded transcript, or why the worker could not play the match.
     pub(super) transcript: Result<Vec<u8>, RunFailure>,
-    /// Fuel.
-    pub(super) fuel: FuelUse,
-    /// How much the robot wrote to its journal.
-    pub(super) journal: JournalCounts,
+    /// What the robot used.
+    pub(super) usage: Usage,
     /// Fuel by step and the journal, when asked for.
     pub(super) details: Option<Details>,
 }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use wasmouse_core::Digest;
 use wasmouse_core::maze::Maze;
-use wasmouse_core::record::{FuelUse, GameResult, MatchKey, MatchSpec};
+use wasmouse_core::record::{GameResult, MatchKey, MatchSpec, Usage};
 
 use super::super::protocol::{
     self, Details, Hello, Loaded, MatchOrder, MatchReport, OwnedNote, Request, RunBatch,
@@ -231,24 +231,20 @@ impl Table {
 }
 
 fn report(
-    ran: Result<(GameResult, FuelUse), InfrastructureError>,
+    ran: Result<(GameResult, Usage), InfrastructureError>,
     recording: &Recording,
     details: bool,
 ) -> MatchReport {
-    let (transcript, fuel) = match ran {
-        Ok((_, fuel)) => (Ok(recording.transcript.to_bytes()), fuel),
+    let (transcript, usage) = match ran {
+        Ok((_, usage)) => (Ok(recording.transcript.to_bytes()), usage),
         Err(InfrastructureError::Slow { seconds }) => {
-            (Err(RunFailure::Slow { seconds }), FuelUse::default())
+            (Err(RunFailure::Slow { seconds }), Usage::default())
         }
-        Err(error) => (
-            Err(RunFailure::Failed(error.to_string())),
-            FuelUse::default(),
-        ),
+        Err(error) => (Err(RunFailure::Failed(error.to_string())), Usage::default()),
     };
     MatchReport {
         transcript,
-        fuel,
-        journal: recording.journal.counts(),
+        usage,
         details: details.then(|| {
             let entries = recording.journal.entries();
             Details {

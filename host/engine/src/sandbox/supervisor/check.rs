@@ -41,8 +41,11 @@ pub(in crate::sandbox) fn check(
         Err(RunFailure::Slow { seconds }) => return Ok(Err(InfrastructureError::Slow { seconds })),
         Err(RunFailure::Failed(reason)) => return Ok(Err(InfrastructureError::Call(reason))),
     };
-    check_fuel(report.fuel, limits)?;
-    check_journal(report.journal, limits)?;
+    check_fuel(report.usage.fuel, limits)?;
+    if report.usage.memory_bytes > limits.memory_bytes_max {
+        return violation("more memory was used than there was");
+    }
+    check_journal(report.usage.journal, limits)?;
     if let Ending::Fault { detail, .. } = transcript.ending()
         && detail.len() > DETAIL_BYTES_MAX
     {
@@ -51,13 +54,7 @@ pub(in crate::sandbox) fn check(
     let result = replay(&spec.maze, &spec.rules.game, &transcript)
         .map_err(|error| ProtocolViolation(error.to_string()))?;
     recording.transcript = transcript;
-    let record = MatchRecord::new(
-        spec.key,
-        result,
-        report.fuel,
-        report.journal,
-        &recording.transcript,
-    );
+    let record = MatchRecord::new(spec.key, result, report.usage, &recording.transcript);
     if let Some(details) = report.details {
         keep(details, &record, spec, recording)?;
     }
@@ -144,7 +141,7 @@ mod tests {
     use wasmouse_core::game::{FaultKind, Phase, Ruleset};
     use wasmouse_core::journal::Level;
     use wasmouse_core::maze::{Maze, Walls};
-    use wasmouse_core::record::MatchKey;
+    use wasmouse_core::record::{MatchKey, Usage};
 
     use super::super::super::protocol::OwnedNote;
     use super::*;
@@ -176,14 +173,17 @@ mod tests {
     fn failed() -> MatchReport {
         MatchReport {
             transcript: Ok(transcript("executed `unreachable`".into())),
-            fuel: FuelUse {
-                start: 1,
-                steps: 7,
-                step_max: 7,
-            },
-            journal: JournalCounts {
-                entries: 0,
-                dropped: 3,
+            usage: Usage {
+                fuel: FuelUse {
+                    start: 1,
+                    steps: 7,
+                    step_max: 7,
+                },
+                memory_bytes: 65_536,
+                journal: JournalCounts {
+                    entries: 0,
+                    dropped: 3,
+                },
             },
             details: Some(Details {
                 step_fuel: vec![7],
@@ -217,21 +217,23 @@ mod tests {
         check_change(|it| details(it).step_fuel = vec![3, 4], fuel);
         check_change(|it| details(it).step_fuel = vec![u64::MAX, 8], fuel);
         let room = Some("there are more entries than a journal has");
-        check_change(|it| it.journal.entries = u64::MAX, room);
-        check_change(|it| it.journal.dropped = u64::MAX, room);
+        check_change(|it| it.usage.journal.entries = u64::MAX, room);
+        check_change(|it| it.usage.journal.dropped = u64::MAX, room);
         let count = Some("the number of entries differs");
-        check_change(|it| it.journal.entries = 1, count);
+        check_change(|it| it.usage.journal.entries = 1, count);
         let log = |step| (step, OwnedNote::Log(Level::Info, "text".into()));
         check_change(|it| details(it).journal.push(log(1)), count);
         check_change(
             |it| {
-                it.journal.entries = 1;
+                it.usage.journal.entries = 1;
                 details(it).journal.push(log(2));
             },
             Some("an entry was made after the last step"),
         );
         let fuel = Some("more fuel was used than there was");
-        check_change(|it| it.fuel.start = u64::MAX, fuel);
+        check_change(|it| it.usage.fuel.start = u64::MAX, fuel);
+        let memory = Some("more memory was used than there was");
+        check_change(|it| it.usage.memory_bytes = u64::MAX, memory);
         let detail = transcript("x".repeat(DETAIL_BYTES_MAX + 1));
         check_change(
             |it| it.transcript = Ok(detail),

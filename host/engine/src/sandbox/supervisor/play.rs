@@ -9,8 +9,7 @@ use std::io;
 use std::ops::ControlFlow;
 
 use wasmouse_core::game::{FaultKind, Phase};
-use wasmouse_core::journal::JournalCounts;
-use wasmouse_core::record::{FuelUse, MatchRecord, MatchSpec, replay};
+use wasmouse_core::record::{MatchRecord, MatchSpec, Usage, replay};
 
 use super::super::protocol::Loaded;
 use super::super::role::Role;
@@ -263,8 +262,7 @@ fn crashed(exit: &WorkerExit, spec: &MatchSpec, recording: &mut Recording) -> Ma
     transcript.end_with_fault(FaultKind::Crash, Phase::Unknown, detail);
     let result = replay(&spec.maze, &spec.rules.game, transcript)
         .expect("a match may fail before its first step");
-    let (fuel, journal) = (FuelUse::default(), JournalCounts::default());
-    MatchRecord::new(spec.key, result, fuel, journal, transcript)
+    MatchRecord::new(spec.key, result, Usage::default(), transcript)
 }
 
 fn run_failed(reason: String) -> InfrastructureError {
