@@ -7,3 +7,4 @@
 pub mod cli;
 pub mod contest;
 pub mod report;
+pub mod store;

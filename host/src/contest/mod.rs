@@ -7,6 +7,7 @@
 mod best;
 mod difference;
 mod faults;
+mod matrix;
 mod maze_source;
 mod mean;
 mod plan;
@@ -20,6 +21,9 @@ mod verify;
 pub use best::{BestMatch, BestMatches};
 pub use difference::{FieldDifference, differences};
 pub use faults::{FaultGroup, FaultSummary};
+pub use matrix::{
+    MatchScore, MatrixBuilder, MatrixFault, MatrixMaze, MatrixRobot, MazeSet, Outcome, ScoreMatrix,
+};
 pub use maze_source::{ContestMaze, MazeSource};
 pub use mean::Mean;
 pub use plan::{Entrant, KeyParts, NotAdmitted, Plan, Player, Seeds};

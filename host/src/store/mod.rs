@@ -1,0 +1,1 @@
+//! Results of contests in a SQLite database.
