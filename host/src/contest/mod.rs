@@ -13,6 +13,7 @@ mod mean;
 mod plan;
 mod results;
 mod run;
+mod scoring;
 mod sink;
 mod standings;
 mod tally;
@@ -32,6 +33,7 @@ pub use results::{
     SummaryBuilder, WithdrawalEntry, records_digest,
 };
 pub use run::{Options, RunError, default_robot_time, run};
+pub use scoring::{Method, Scoring, TieBreak, worst_score_steps};
 pub use sink::{ContestMatch, MatchFailure, RecordList, Sink, Tee};
 pub use standings::{Standing, Standings, StandingsBuilder};
 pub use tally::{Regret, Tally};
