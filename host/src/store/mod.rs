@@ -1,1 +1,22 @@
 //! Results of contests in a SQLite database.
+//!
+//! A [`Store`] is one file that holds what came of matches, by the digests of their keys' parts:
+//! engine, rules, robot, maze. A sink writes the matches of a contest into it while they
+//! are played; `Store::missing` says which are left, so that a contest goes on where it ended;
+//! `Store::matrix` and `Store::records` read them in the order of a plan; `Store::merge`
+//! adds another store. What a store holds depends on neither the order of matches nor on
+//! restarts, and `Store::content_digest` names it in one line.
+//!
+//! Records are never changed or deleted. No times are stored, and no text of a store is escaped:
+//! it may come from anyone.
+//!
+//! Knows nothing about output formats and prints nothing.
+
+mod error;
+mod file;
+mod open;
+mod schema;
+
+pub use error::{StoreError, StoreErrorKind};
+pub use open::Store;
+pub use schema::{APPLICATION_ID, SCHEMA_VERSION};
