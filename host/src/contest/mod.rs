@@ -7,6 +7,7 @@
 mod best;
 mod difference;
 mod faults;
+mod hardest;
 mod matrix;
 mod maze_source;
 mod mean;
@@ -23,6 +24,7 @@ mod verify;
 pub use best::{BestMatch, BestMatches};
 pub use difference::{FieldDifference, differences};
 pub use faults::{FaultGroup, FaultSummary};
+pub use hardest::HardestMazes;
 pub use matrix::{
     MatchScore, MatrixBuilder, MatrixFault, MatrixMaze, MatrixRobot, MazeSet, Outcome, ScoreMatrix,
 };
