@@ -12,14 +12,15 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::mazes::{self, BadFiles, Legality};
 use super::output::{self, Draft, Existing, Stdout, message};
+use super::page::PageBuilder;
 use super::play::{Pace, play_all};
 use super::robots::{self, RobotSpec};
 use super::setup::{IsolationArgs, SetupArgs, TimeArgs};
 use super::verdict::{exit, print_faults};
-use super::{backtrace, interrupt, log, page, reproduce, terminal, watch};
+use super::{backtrace, interrupt, log, reproduce, terminal, watch};
 use crate::contest::{
-    BestMatches, ContestInfo, FaultSummary, Plan, Player, RESULTS_VERSION, RecordList, Results,
-    Seeds, Sink, StandingsBuilder, Summary, SummaryBuilder, Tee,
+    ContestInfo, FaultSummary, Plan, Player, RESULTS_VERSION, RecordList, Results, Seeds, Sink,
+    StandingsBuilder, Summary, SummaryBuilder, Tee,
 };
 use crate::report::escape::for_terminal;
 use crate::report::jsonl::JsonLines;
@@ -156,9 +157,8 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         args.print_tables(&plan, results)?;
     }
     print_faults(&plan, &players, results, &played.faults);
-    if let (Some(html), Some(path)) = (html, &args.html) {
-        let best = played.best.map(BestMatches::into_best).unwrap_or_default();
-        page::write(html, path, results, &players, &best)?;
+    if let (Some(html), Some(path), Some(page)) = (html, &args.html, played.page) {
+        page.write(html, path, &plan, results.summary.digest)?;
     }
     let exit = exit(&plan, results);
     if exit == Exit::Interrupted {
@@ -190,7 +190,7 @@ struct Played {
     /// With matches only when there are few, or when they are needed.
     results: Results,
     faults: FaultSummary,
-    best: Option<BestMatches>,
+    page: Option<PageBuilder>,
 }
 
 impl Args {
@@ -257,7 +257,7 @@ impl Args {
         let mut standings = StandingsBuilder::new(plan, players);
         let mut summary = SummaryBuilder::new();
         let mut faults = FaultSummary::default();
-        let mut best = self.html.as_ref().map(|_| BestMatches::default());
+        let mut page = self.html.as_ref().map(|_| PageBuilder::new(plan));
         let needs_list = self.matches || self.log || self.watch || self.reproduce;
         let mut list = RecordList::new(if needs_list { u64::MAX } else { LISTED_MAX });
         let path = self.output.as_deref().unwrap_or(Path::new(""));
@@ -277,7 +277,7 @@ impl Args {
 
         let mut sinks: Vec<&mut dyn Sink> =
             vec![&mut standings, &mut summary, &mut faults, &mut list];
-        sinks.extend(best.as_mut().map(|it| it as &mut dyn Sink));
+        sinks.extend(page.iter_mut().flat_map(PageBuilder::sinks));
         sinks.extend(file.as_mut().map(FileWriter::sink));
         sinks.extend(stdout.as_mut().map(|it| it as &mut dyn Sink));
         play_all(plan, executor, pace, &mut Tee(sinks))?;
@@ -300,7 +300,7 @@ impl Args {
         Ok(Played {
             results,
             faults,
-            best,
+            page,
         })
     }
 

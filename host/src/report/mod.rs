@@ -15,7 +15,6 @@ pub mod jsonl;
 pub mod maze_check;
 pub mod maze_solve;
 mod moment;
-pub mod page;
 mod paths;
 pub mod picture;
 pub mod results_json;
