@@ -18,8 +18,8 @@ use wasmouse_core::maze::{BundledMaze, Maze, bundled, violations};
 use super::failure::Failure;
 use super::input;
 use super::output::message;
-use super::suggest::suggestion;
 use crate::contest::MazeSource;
+use crate::contest::config::suggestion;
 use crate::report::text::{Text, text};
 
 /// What a user may write for a maze, for the long help of every command.

@@ -28,7 +28,6 @@ mod robot_list;
 mod robots;
 mod run;
 mod setup;
-mod suggest;
 mod terminal;
 mod toolchain;
 mod verdict;

@@ -18,7 +18,7 @@ use super::build;
 use super::failure::Failure;
 use super::input;
 use super::output::message;
-use super::suggest::suggestion;
+use crate::contest::config::suggestion;
 use crate::contest::{Entrant, NotAdmitted};
 use crate::report::escape::for_terminal;
 use crate::report::text::Text;

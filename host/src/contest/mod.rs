@@ -5,6 +5,7 @@
 //! the parts of the [`Results`] document are sinks. Prints nothing and opens no files.
 
 mod best;
+pub mod config;
 mod difference;
 mod faults;
 mod matrix;
