@@ -8,6 +8,7 @@ mod best;
 pub mod config;
 mod difference;
 mod faults;
+mod file;
 mod matrix;
 mod maze_source;
 mod mean;
@@ -23,6 +24,11 @@ mod verify;
 pub use best::{BestMatch, BestMatches};
 pub use difference::{FieldDifference, differences};
 pub use faults::{FaultGroup, FaultSummary};
+pub use file::{
+    CONTEST_FILE_VERSION, ClassEntry, ContestFile, GameEntry, KeepTranscripts, MazesEntry,
+    NamesFrom, Outputs, ReportOptions, RobotSource, RobotsEntry, RulesEntry, RunOptions,
+    SandboxEntry, SeedsEntry, VariantRef, template,
+};
 pub use matrix::{
     MatchScore, MatrixBuilder, MatrixFault, MatrixMaze, MatrixRobot, MazeSet, Outcome, ScoreMatrix,
 };
