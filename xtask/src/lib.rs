@@ -14,6 +14,7 @@ pub mod reference;
 pub mod robots;
 pub mod sources;
 pub mod step;
+pub mod validators;
 pub mod verify;
 
 /// The root folder of the repository that this program was compiled in.

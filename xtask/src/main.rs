@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use xtask::{bindings, corpus, fuzz, reference, repository, robots, verify};
+use xtask::{bindings, corpus, fuzz, reference, repository, robots, validators, verify};
 
 /// Automation for the wasmouse repository.
 #[derive(Parser)]
@@ -45,6 +45,8 @@ enum Command {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<OsString>,
     },
+    /// Install the validators that tests use into target/validators: packages of Python and Node.
+    Validators,
     /// Fuzz a parser of untrusted input; without a target, list the targets.
     Fuzz {
         /// The fuzz target.
@@ -64,6 +66,7 @@ fn main() -> ExitCode {
         Command::Robots { check: true } => robots::check(&root),
         Command::Corpus { arguments } => corpus::run(&root, &arguments),
         Command::Reference { arguments } => reference::run(&root, &arguments),
+        Command::Validators => validators::run(&root),
         Command::Fuzz { target, minutes } => fuzz::run(&root, target.as_deref(), minutes),
     };
     match outcome {
