@@ -7,6 +7,7 @@
 
 pub mod bundled;
 pub mod config;
+pub mod contest_check;
 pub mod escape;
 pub mod faults;
 pub mod inspection;

@@ -9,8 +9,9 @@ use wasmouse_core::maze::generate::GenSpec;
 use wasmouse_engine::bundled::bundled;
 
 use super::super::config::{ConfigError, Document, suggestion};
-use super::robots::{RobotSource, VariantRef};
-use super::{CONTEST_FILE_VERSION, ContestFile, GameEntry, RobotsEntry, SandboxEntry};
+use super::contest_file::{CONTEST_FILE_VERSION, ContestFile};
+use super::robots::{RobotSource, RobotsEntry, VariantRef};
+use super::rules::{GameEntry, SandboxEntry};
 
 type Checked = Result<(), ConfigError>;
 

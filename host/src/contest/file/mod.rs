@@ -1,108 +1,21 @@
-//! [`ContestFile`]: the contest file, `contest.toml`.
+//! The contest file, `contest.toml`: its types, its parser, and a template.
 //!
-//! `docs/CONTEST.md` is its reference and `host/schema/contest.schema.json` its JSON Schema; tests
-//! keep both in agreement with the parser. [`ContestFile::parse`] checks everything that can be
-//! known without the files that it names; `cli::contest::resolve` finds those.
+//! [`ContestFile::parse`] checks everything that can be known without the files that it names;
+//! `cli::contest::resolve` finds those. `docs/CONTEST.md` is the reference of the format and
+//! `host/schema/contest.schema.json` its JSON Schema; tests keep both in agreement with the parser.
 
 mod check;
+mod contest_file;
 mod mazes;
 mod options;
+mod parse;
 mod robots;
 mod rules;
 mod template;
 
-use serde::Deserialize;
-
+pub use contest_file::{CONTEST_FILE_VERSION, ContestFile};
 pub use mazes::MazesEntry;
 pub use options::{ClassEntry, KeepTranscripts, Outputs, ReportOptions, RunOptions, SeedsEntry};
 pub use robots::{NamesFrom, RobotSource, RobotsEntry, VariantRef};
 pub use rules::{GameEntry, RulesEntry, SandboxEntry};
 pub use template::template;
-
-use super::config::{ConfigError, Document, FilePath, Integer, Name};
-use super::scoring::Scoring;
-
-/// The version of contest files.
-pub const CONTEST_FILE_VERSION: u64 = 1;
-
-/// A contest file. Paths in it are relative to the folder of the file.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ContestFile {
-    /// [`CONTEST_FILE_VERSION`].
-    pub version: Integer<1, CONTEST_FILE_VERSION>,
-    /// What reports call the contest. Default: `contest`.
-    #[serde(default = "contest")]
-    pub name: Name,
-    /// The database with the results. Default: the contest file's own name, with the ending `.db`.
-    pub store: Option<FilePath>,
-    /// Who takes part. At least one entry.
-    #[serde(default)]
-    pub robots: Vec<RobotsEntry>,
-    /// Classes of robots. Default: none.
-    #[serde(default)]
-    pub classes: Vec<ClassEntry>,
-    /// Sets of mazes. At least one.
-    #[serde(default)]
-    pub mazes: Vec<MazesEntry>,
-    /// The seeds of every maze.
-    #[serde(default)]
-    pub seeds: SeedsEntry,
-    /// The rules of all matches.
-    #[serde(default)]
-    pub rules: RulesEntry,
-    /// How matches become ranks.
-    #[serde(default)]
-    pub scoring: Scoring,
-    /// How matches are played.
-    #[serde(default)]
-    pub run: RunOptions,
-    /// What reports show.
-    #[serde(default)]
-    pub report: ReportOptions,
-    /// The reports to write.
-    #[serde(default)]
-    pub outputs: Outputs,
-}
-
-impl ContestFile {
-    /// Reads a contest file.
-    ///
-    /// ```
-    /// use wasmouse::contest::ContestFile;
-    ///
-    /// let file = ContestFile::parse(
-    ///     "version = 1\n\
-    ///      [[robots]]\n\
-    ///      path = \"submissions/*.wasm\"\n\
-    ///      [[mazes]]\n\
-    ///      set = \"public\"\n\
-    ///      paths = [\"test_maze_01\", \"gen:tree:16:1..=100\"]\n",
-    /// );
-    /// let file = file.expect("a contest file");
-    /// assert_eq!(file.mazes[0].weight.get(), 1);
-    /// ```
-    ///
-    /// # Errors
-    ///
-    /// With the first thing that is wrong.
-    pub fn parse(text: &str) -> Result<Self, ConfigError> {
-        let document = Document::parse(text)?;
-        check::version(&document)?;
-        let file = document.read()?;
-        check::check(&file, &document)?;
-        Ok(file)
-    }
-
-    /// The first class whose limits were kept by a robot that declares none, by what it used at
-    /// most in any match: fuel in a step, and linear memory in bytes.
-    pub fn class_by_usage(&self, step_fuel: u64, memory_bytes: u64) -> Option<&str> {
-        let mut classes = self.classes.iter();
-        let class = classes.find(|it| it.holds(step_fuel, memory_bytes));
-        class.map(|it| it.name.as_str())
-    }
-}
-
-fn contest() -> Name {
-    Name::new("contest").expect("it is a name")
-}
