@@ -34,7 +34,7 @@ pub use results::{
 };
 pub use run::{Options, RunError, default_robot_time, run};
 pub use scoring::{Method, Scoring, TieBreak, worst_score_steps};
-pub use sink::{ContestMatch, MatchFailure, RecordList, Sink, Tee};
+pub use sink::{ContestMatch, Ended, MatchFailure, RecordList, Sink, Tee};
 pub use standings::{Standing, Standings, StandingsBuilder};
 pub use tally::{Regret, Tally};
 pub use verify::{Compared, compare, compare_played};
