@@ -5,6 +5,7 @@
 //! the parts of the [`Results`] document are sinks. Prints nothing and opens no files.
 
 mod best;
+mod commitment;
 mod difference;
 mod faults;
 mod matrix;
@@ -20,6 +21,9 @@ mod tally;
 mod verify;
 
 pub use best::{BestMatch, BestMatches};
+pub use commitment::{
+    Broken, COMMITMENT_VERSION, Commitment, CommittedSet, OpenedMaze, OpenedSet, Opening,
+};
 pub use difference::{FieldDifference, differences};
 pub use faults::{FaultGroup, FaultSummary};
 pub use matrix::{
