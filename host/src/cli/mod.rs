@@ -8,6 +8,7 @@ mod again;
 mod backtrace;
 mod build;
 mod completions;
+mod contest;
 mod demo;
 mod exit;
 mod failure;
@@ -21,6 +22,7 @@ mod mazes;
 mod new;
 mod output;
 mod page;
+mod pattern;
 mod play;
 mod reproduce;
 mod resolve;
@@ -28,7 +30,6 @@ mod robot_list;
 mod robots;
 mod run;
 mod setup;
-mod suggest;
 mod terminal;
 mod toolchain;
 mod verdict;
@@ -62,6 +63,8 @@ enum Command {
     Demo(demo::Args),
     Run(run::Args),
     Verify(verify::Args),
+    /// Run contests that are described by a contest file
+    Contest(contest::Args),
     Robots(robot_list::Args),
     Inspect(inspect::Args),
     /// Check, convert, draw, solve and generate mazes
@@ -110,6 +113,7 @@ fn command() -> ExitCode {
         Command::Demo(args) => demo::run(&args),
         Command::Run(args) => run::run(&args),
         Command::Verify(args) => verify::run(&args),
+        Command::Contest(args) => contest::run(&args),
         Command::Robots(args) => robot_list::run(&args),
         Command::Inspect(args) => inspect::run(&args),
         Command::Maze(args) => maze::run(args),

@@ -6,8 +6,10 @@
 
 mod best;
 mod commitment;
+pub mod config;
 mod difference;
 mod faults;
+mod file;
 mod matrix;
 mod maze_source;
 mod mean;
@@ -26,6 +28,11 @@ pub use commitment::{
 };
 pub use difference::{FieldDifference, differences};
 pub use faults::{FaultGroup, FaultSummary};
+pub use file::{
+    CONTEST_FILE_VERSION, ClassEntry, ContestFile, GameEntry, KeepTranscripts, MazesEntry,
+    NamesFrom, Outputs, ReportOptions, RobotSource, RobotsEntry, RulesEntry, RunOptions,
+    SandboxEntry, SeedsEntry, VariantRef, template,
+};
 pub use matrix::{
     MatchScore, MatrixBuilder, MatrixFault, MatrixMaze, MatrixRobot, MazeSet, Outcome, ScoreMatrix,
 };

@@ -6,6 +6,8 @@
 //! types can change without changing what other programs read.
 
 pub mod bundled;
+pub mod config;
+pub mod contest_check;
 pub mod escape;
 pub mod faults;
 pub mod inspection;
