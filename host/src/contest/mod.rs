@@ -14,6 +14,7 @@ mod matrix;
 mod maze_source;
 mod mean;
 mod plan;
+mod ranking;
 mod results;
 mod run;
 mod scoring;
@@ -39,12 +40,13 @@ pub use matrix::{
 pub use maze_source::{ContestMaze, MazeSource};
 pub use mean::Mean;
 pub use plan::{Entrant, KeyParts, NotAdmitted, Plan, Player, Seeds};
+pub use ranking::{MazeFilter, Percentiles, Ranking, RankingLine, RobotState};
 pub use results::{
     ContestInfo, MazeEntry, Names, RESULTS_VERSION, RejectionEntry, Results, RobotEntry, Summary,
     SummaryBuilder, WithdrawalEntry, records_digest,
 };
 pub use run::{Options, RunError, default_robot_time, run};
-pub use scoring::{Method, Scoring, TieBreak, worst_score_steps};
+pub use scoring::{Method, Scoring, TIE_BREAKS_DEFAULT, TieBreak, worst_score_steps};
 pub use sink::{ContestMatch, Ended, MatchFailure, RecordList, Sink, Tee};
 pub use standings::{Standing, Standings, StandingsBuilder};
 pub use tally::{Regret, Tally};
