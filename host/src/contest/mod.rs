@@ -5,6 +5,7 @@
 //! the parts of the [`Results`] document are sinks. Prints nothing and opens no files.
 
 mod best;
+mod commitment;
 pub mod config;
 mod difference;
 mod faults;
@@ -23,6 +24,9 @@ mod tally;
 mod verify;
 
 pub use best::{BestMatch, BestMatches};
+pub use commitment::{
+    Broken, COMMITMENT_VERSION, Commitment, CommittedSet, OpenedMaze, OpenedSet, Opening,
+};
 pub use difference::{FieldDifference, differences};
 pub use faults::{FaultGroup, FaultSummary};
 pub use file::{
@@ -45,7 +49,7 @@ pub use results::{
 };
 pub use run::{Options, RunError, default_robot_time, run};
 pub use scoring::{Method, Scoring, TIE_BREAKS_DEFAULT, TieBreak, worst_score_steps};
-pub use sink::{ContestMatch, MatchFailure, RecordList, Sink, Tee};
+pub use sink::{ContestMatch, Ended, MatchFailure, RecordList, Sink, Tee};
 pub use standings::{Standing, Standings, StandingsBuilder};
 pub use tally::{Regret, Tally};
 pub use verify::{Compared, compare, compare_played};
