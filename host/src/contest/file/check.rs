@@ -9,14 +9,15 @@ use wasmouse_core::maze::generate::GenSpec;
 use wasmouse_engine::bundled::bundled;
 
 use super::super::config::{ConfigError, Document, suggestion};
-use super::contest_file::{CONTEST_FILE_VERSION, ContestFile};
+use super::contest_file::ContestFile;
+use super::options::SeedsEntry;
 use super::robots::{RobotSource, RobotsEntry, VariantRef};
-use super::rules::{GameEntry, SandboxEntry};
+use super::rules::{GameEntry, RulesEntry, SandboxEntry};
 
 type Checked = Result<(), ConfigError>;
 
 /// Checks the version before anything else: the keys of another one may be others.
-pub(super) fn version(document: &Document<'_>) -> Checked {
+pub(in crate::contest) fn version(document: &Document<'_>, supported: u64) -> Checked {
     #[derive(Deserialize)]
     struct OnlyVersion {
         version: Option<Value>,
@@ -26,14 +27,14 @@ pub(super) fn version(document: &Document<'_>) -> Checked {
             let error = document.error("", "missing key `version`");
             return Err(error.hint("begin the file with `version = 1`"));
         }
-        Some(Value::Integer(number)) if u64::try_from(number) == Ok(CONTEST_FILE_VERSION) => {
+        Some(Value::Integer(number)) if u64::try_from(number) == Ok(supported) => {
             return Ok(());
         }
         Some(Value::Integer(number)) => number,
         // The value's type says more.
         Some(_) => return Ok(()),
     };
-    let message = format!("version {found}; only version {CONTEST_FILE_VERSION} is supported");
+    let message = format!("version {found}; only version {supported} is supported");
     let error = document.error("version", message);
     Err(error.hint("use the wasmouse that the file was written for"))
 }
@@ -43,8 +44,8 @@ pub(super) fn check(file: &ContestFile, document: &Document<'_>) -> Checked {
     classes(file, document)?;
     robots(file, document)?;
     mazes(file, document)?;
-    seeds(file, document)?;
-    rules(file, document)?;
+    seeds(&file.seeds, document)?;
+    rules(&file.rules, document)?;
     scoring(file, document)?;
     outputs(file, document)
 }
@@ -238,8 +239,9 @@ fn mazes(file: &ContestFile, document: &Document<'_>) -> Checked {
     Ok(())
 }
 
-fn seeds(file: &ContestFile, document: &Document<'_>) -> Checked {
-    let (first, count) = (file.seeds.first.get(), file.seeds.count.get());
+/// Checks the seeds of any configuration file.
+pub(in crate::contest) fn seeds(seeds: &SeedsEntry, document: &Document<'_>) -> Checked {
+    let (first, count) = (seeds.first.get(), seeds.count.get());
     match first.checked_add(count - 1) {
         Some(_) => Ok(()),
         None => {
@@ -251,8 +253,8 @@ fn seeds(file: &ContestFile, document: &Document<'_>) -> Checked {
     }
 }
 
-fn rules(file: &ContestFile, document: &Document<'_>) -> Checked {
-    let rules = &file.rules;
+/// Checks the rules of any configuration file.
+pub(in crate::contest) fn rules(rules: &RulesEntry, document: &Document<'_>) -> Checked {
     let bundled = Ruleset::all().map(|it| it.name);
     let names = bundled.iter().map(String::as_str);
     if let Some(base) = &rules.base
