@@ -10,6 +10,7 @@ pub mod config;
 mod difference;
 mod faults;
 mod file;
+pub mod grade;
 mod matrix;
 mod maze_source;
 mod mean;
