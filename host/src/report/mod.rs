@@ -10,6 +10,7 @@ pub mod config;
 pub mod contest_check;
 pub mod escape;
 pub mod faults;
+pub mod grade;
 pub mod inspection;
 mod json;
 pub mod jsonl;
