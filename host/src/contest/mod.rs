@@ -40,7 +40,9 @@ pub use matrix::{
 pub use maze_source::{ContestMaze, MazeSource};
 pub use mean::Mean;
 pub use plan::{Entrant, KeyParts, NotAdmitted, Plan, Player, Seeds};
-pub use ranking::{MazeFilter, Percentiles, Ranking, RankingLine, RobotState};
+pub use ranking::{
+    MazeFilter, PairedComparison, PairedVerdict, Percentiles, Ranking, RankingLine, RobotState,
+};
 pub use results::{
     ContestInfo, MazeEntry, Names, RESULTS_VERSION, RejectionEntry, Results, RobotEntry, Summary,
     SummaryBuilder, WithdrawalEntry, records_digest,
