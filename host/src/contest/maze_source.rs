@@ -18,6 +18,8 @@ pub struct ContestMaze {
     pub digest: Digest,
     /// The score of a robot that knows the maze; `None` when the goal cannot be reached.
     pub oracle: Option<Score>,
+    /// Whether its name is the specification that generates it.
+    pub is_generated: bool,
 }
 
 /// Where a maze of a contest comes from.
@@ -53,6 +55,7 @@ impl MazeSource {
             name: self.name(),
             digest: maze.digest(),
             oracle: rules.oracle_score(&maze),
+            is_generated: matches!(self, Self::Generated(_)),
             maze,
         }
     }

@@ -336,6 +336,7 @@ mod tests {
                 name: HOSTILE.to_owned(),
                 digest: maze.digest(),
                 oracle: None,
+                is_generated: false,
                 maze: Arc::new(maze),
             },
         }

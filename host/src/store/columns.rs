@@ -1,0 +1,244 @@
+//! A [`MatchRecord`] as the columns of the table `match`, and back.
+
+use rusqlite::{Row, Statement, params};
+use wasmouse_core::game::{Counts, Fault, FaultKind, Phase, Ruleset, Run, Score, Steps, Verdict};
+use wasmouse_core::journal::JournalCounts;
+use wasmouse_core::maze::Cell;
+use wasmouse_core::record::{FuelUse, MatchKey, MatchRecord, RecordVersion};
+
+use super::error::StoreErrorKind;
+use super::ids::{Address, digest_at};
+
+/// The columns of a record after those of its address, in the order of [`read_record`].
+macro_rules! record_columns {
+    () => {
+        "verdict, exploration_steps, speed_steps, fuel_start, fuel_steps, fuel_step_max, \
+         memory_bytes, fault_kind, bumps, clamps, resets_before_goal, resets_in_speed_run, \
+         journal_entries, journal_dropped, transcript, fault_phase, fault_run, fault_step, \
+         fault_x, fault_y, fault_detail"
+    };
+}
+
+/// Adds a record unless its address has one.
+pub(super) const INSERT_RECORD: &str = concat!(
+    "INSERT INTO match(engine, rules, robot, variant, maze, seed, ",
+    record_columns!(),
+    ") VALUES(?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, \
+     ?19, ?20, ?21, ?22, ?23, ?24, ?25, ?26, ?27) ON CONFLICT DO NOTHING"
+);
+
+/// One record.
+pub(super) const SELECT_RECORD: &str = concat!(
+    "SELECT ",
+    record_columns!(),
+    " FROM match WHERE engine = ?1 AND rules = ?2 AND robot = ?3 AND variant = ?4 \
+     AND maze = ?5 AND seed = ?6"
+);
+
+/// The records of a player in a maze with seeds of a range, after the seed.
+pub(super) const SELECT_SEEDS: &str = concat!(
+    "SELECT ",
+    record_columns!(),
+    ", seed FROM match WHERE engine = ?1 AND rules = ?2 AND robot = ?3 AND variant = ?4 \
+     AND maze = ?5 AND seed BETWEEN ?6 AND ?7"
+);
+
+/// The records of a player whose transcripts are kept, with the digest of the maze, the seed and
+/// the oracle's steps (exploration, speed) behind.
+pub(super) const SELECT_KEPT: &str = concat!(
+    "SELECT ",
+    record_columns!(),
+    ", z.digest, m.seed, oracle_exploration, oracle_speed FROM transcript t \
+     JOIN match m USING(engine, rules, robot, variant, maze, seed) JOIN maze z ON z.id = m.maze \
+     LEFT JOIN oracle o ON o.maze = m.maze AND o.rules = m.rules \
+     WHERE t.engine = ?1 AND t.rules = ?2 AND t.robot = ?3 AND t.variant = ?4"
+);
+
+/// All records in the order of the file, with their addresses behind.
+pub(super) const SELECT_ALL: &str = concat!(
+    "SELECT ",
+    record_columns!(),
+    ", engine, rules, robot, variant, maze, seed FROM match \
+     ORDER BY engine, rules, robot, variant, maze, seed"
+);
+
+/// The number of columns of a record: the first one behind.
+pub(super) const RECORD_COLUMNS: usize = 21;
+
+/// Codes of the column `verdict`.
+pub(super) const FINISHED: u8 = 0;
+pub(super) const BUDGET_USED_UP: u8 = 1;
+pub(super) const GOAL_REACHED: u8 = 2;
+pub(super) const FAULT: u8 = 3;
+
+/// Why a record cannot be stored, because it would not be the same when it is read.
+pub(super) fn inconsistency(record: &MatchRecord, rules: &Ruleset) -> Option<&'static str> {
+    let Verdict::Finished { score } = &record.verdict else {
+        return None;
+    };
+    let Steps { exploration, speed } = record.steps;
+    let expected = rules.game.score(speed, exploration);
+    (!same_parts(*score, expected)).then_some("its score does not follow from its steps")
+}
+
+/// Scores are equal when their values are; here every part counts.
+fn same_parts(left: Score, right: Score) -> bool {
+    left.speed_steps() == right.speed_steps()
+        && left.exploration_steps() == right.exploration_steps()
+        && left.divisor() == right.divisor()
+}
+
+/// Executes [`INSERT_RECORD`]; whether it added a row.
+pub(super) fn insert(
+    statement: &mut Statement<'_>,
+    at: &Address,
+    record: &MatchRecord,
+) -> rusqlite::Result<bool> {
+    let verdict = match &record.verdict {
+        Verdict::Finished { .. } => FINISHED,
+        Verdict::BudgetUsedUp {
+            goal_reached: false,
+        } => BUDGET_USED_UP,
+        Verdict::BudgetUsedUp { goal_reached: true } => GOAL_REACHED,
+        Verdict::Fault { .. } => FAULT,
+    };
+    let fault = record.verdict.fault();
+    let rows = statement.execute(params![
+        at.engine,
+        at.rules,
+        at.robot,
+        at.variant,
+        at.maze,
+        at.seed,
+        verdict,
+        record.steps.exploration,
+        record.steps.speed,
+        record.fuel.start.cast_signed(),
+        record.fuel.steps.cast_signed(),
+        record.fuel.step_max.cast_signed(),
+        record.memory_bytes.cast_signed(),
+        fault.map(|it| fault_code(it.kind)),
+        record.counts.bumps,
+        record.counts.clamps,
+        record.counts.resets_before_goal,
+        record.counts.resets_in_speed_run,
+        record.journal.entries.cast_signed(),
+        record.journal.dropped.cast_signed(),
+        record.transcript.as_bytes(),
+        fault.map(|it| code(&Phase::ALL, it.phase)),
+        fault.map(|it| it.run.number()),
+        fault.map(|it| it.step),
+        fault.map(|it| it.cell.x),
+        fault.map(|it| it.cell.y),
+        fault.map(|it| &it.detail),
+    ])?;
+    Ok(rows > 0)
+}
+
+/// The code of a kind of fault.
+pub(super) fn fault_code(kind: FaultKind) -> u8 {
+    code(&FaultKind::ALL, kind)
+}
+
+fn code<T: PartialEq>(all: &[T], value: T) -> u8 {
+    let position = all.iter().position(|it| *it == value);
+    let position = position.expect("every value is in the list of all");
+    u8::try_from(position).expect("a list of fewer than 256 values")
+}
+
+/// The kind of fault of a code.
+pub(super) fn fault_kind(code: u8) -> Option<FaultKind> {
+    FaultKind::ALL.get(usize::from(code)).copied()
+}
+
+/// Reads the first [`RECORD_COLUMNS`] columns of a row.
+pub(super) fn read_record(
+    row: &Row<'_>,
+    key: MatchKey,
+    rules: &Ruleset,
+) -> Result<MatchRecord, StoreErrorKind> {
+    let steps = Steps {
+        exploration: row.get(1)?,
+        speed: row.get(2)?,
+    };
+    let verdict = match row.get(0)? {
+        FINISHED => Some(Verdict::Finished {
+            score: rules.game.score(steps.speed, steps.exploration),
+        }),
+        BUDGET_USED_UP => Some(Verdict::BudgetUsedUp {
+            goal_reached: false,
+        }),
+        GOAL_REACHED => Some(Verdict::BudgetUsedUp { goal_reached: true }),
+        FAULT => read_fault(row)?.map(|fault| Verdict::Fault { fault }),
+        _ => None,
+    };
+    let verdict = verdict.ok_or_else(|| {
+        let address = key.digest();
+        StoreErrorKind::Damaged(format!("match {address} has an unknown verdict"))
+    })?;
+    Ok(MatchRecord {
+        version: RecordVersion,
+        key,
+        verdict,
+        steps,
+        counts: Counts {
+            bumps: row.get(8)?,
+            clamps: row.get(9)?,
+            resets_before_goal: row.get(10)?,
+            resets_in_speed_run: row.get(11)?,
+        },
+        fuel: read_fuel(row, 3)?,
+        memory_bytes: unsigned(row, 6)?,
+        journal: JournalCounts {
+            entries: unsigned(row, 12)?,
+            dropped: unsigned(row, 13)?,
+        },
+        transcript: digest_at(row, 14)?,
+    })
+}
+
+/// The fuel in three columns.
+pub(super) fn read_fuel(row: &Row<'_>, first: usize) -> rusqlite::Result<FuelUse> {
+    Ok(FuelUse {
+        start: unsigned(row, first)?,
+        steps: unsigned(row, first + 1)?,
+        step_max: unsigned(row, first + 2)?,
+    })
+}
+
+/// A number that is stored by its bits.
+pub(super) fn unsigned(row: &Row<'_>, column: usize) -> rusqlite::Result<u64> {
+    row.get::<_, i64>(column).map(i64::cast_unsigned)
+}
+
+/// The fault; `None` for an unknown code.
+fn read_fault(row: &Row<'_>) -> rusqlite::Result<Option<Fault>> {
+    let (kind, phase, run): (u8, u8, u8) = (row.get(7)?, row.get(15)?, row.get(16)?);
+    let phase = Phase::ALL.get(usize::from(phase)).copied();
+    let run = [Run::Exploration, Run::Speed]
+        .into_iter()
+        .find(|it| it.number() == run);
+    let (Some(kind), Some(phase), Some(run)) = (fault_kind(kind), phase, run) else {
+        return Ok(None);
+    };
+    Ok(Some(Fault {
+        kind,
+        phase,
+        run,
+        step: row.get(17)?,
+        cell: Cell::new(row.get(18)?, row.get(19)?),
+        detail: row.get(20)?,
+    }))
+}
+
+/// The address behind the columns of a record.
+pub(super) fn address_behind(row: &Row<'_>) -> rusqlite::Result<Address> {
+    Ok(Address {
+        engine: row.get(RECORD_COLUMNS)?,
+        rules: row.get(RECORD_COLUMNS + 1)?,
+        robot: row.get(RECORD_COLUMNS + 2)?,
+        variant: row.get(RECORD_COLUMNS + 3)?,
+        maze: row.get(RECORD_COLUMNS + 4)?,
+        seed: row.get(RECORD_COLUMNS + 5)?,
+    })
+}

@@ -1,0 +1,250 @@
+//! Mazes in a store: what it takes to show them, and the names of generated ones.
+
+use std::collections::HashMap;
+
+use rusqlite::{Connection, OptionalExtension as _, params};
+use wasmouse_core::Digest;
+use wasmouse_core::game::Score;
+use wasmouse_core::maze::generate::{GenSpec, GeneratedMaze};
+use wasmouse_core::maze::{Area, Cell, DIMENSIONS, Heading, Maze, Walls};
+
+use super::error::{StoreError, StoreErrorKind};
+use super::ids::{self, Table, digest_at};
+use super::open::Store;
+use crate::contest::ContestMaze;
+
+/// The identity of the generators. Equal specifications give equal mazes in every version of
+/// wasmouse with this one.
+pub const GENERATOR: &str = "wasmouse.generate.1";
+
+/// A maze of a store.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StoredMaze {
+    /// What results call it; if it had several names, the first in the order of their bytes.
+    pub name: String,
+    /// Its digest.
+    pub digest: Digest,
+    /// The maze, with that digest.
+    pub maze: Maze,
+}
+
+/// Digests of generated mazes that a store knows.
+#[derive(Clone, Debug, Default)]
+pub struct GeneratedDigests(HashMap<GeneratedMaze, Digest>);
+
+impl GeneratedDigests {
+    /// The digest of a generated maze; `None` if it was not played yet.
+    pub fn get(&self, maze: &GeneratedMaze) -> Option<&Digest> {
+        self.0.get(maze)
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+impl Store {
+    /// The digests of all generated mazes, so that what is missing of a contest is known without
+    /// generating its mazes.
+    ///
+    /// # Errors
+    ///
+    /// When the store cannot be read.
+    pub fn generated_digests(&self) -> Result<GeneratedDigests, StoreError> {
+        self.read(|connection| {
+            let mut statement = connection.prepare(
+                "SELECT g.name, m.digest FROM generated g JOIN maze m ON m.id = g.maze \
+                 WHERE g.generator = ?1",
+            )?;
+            let mut rows = statement.query([GENERATOR])?;
+            let mut digests = HashMap::new();
+            while let Some(row) = rows.next()? {
+                let name = row.get_ref(0)?.as_str().unwrap_or_default();
+                digests.insert(parse_generated(name)?, digest_at(row, 1)?);
+            }
+            Ok(GeneratedDigests(digests))
+        })
+    }
+
+    /// A maze; `None` if the store does not have it.
+    ///
+    /// # Errors
+    ///
+    /// When the store cannot be read, or the maze has another digest.
+    pub fn maze(&self, digest: &Digest) -> Result<Option<StoredMaze>, StoreError> {
+        self.read(|connection| stored_maze(connection, digest))
+    }
+}
+
+/// A maze; `None` if the store does not have it.
+pub(super) fn stored_maze(
+    connection: &Connection,
+    digest: &Digest,
+) -> Result<Option<StoredMaze>, StoreErrorKind> {
+    let sql = "SELECT name, walls, id FROM maze WHERE digest = ?1";
+    let mut statement = connection.prepare_cached(sql)?;
+    let row = statement.query_row(params![digest.as_bytes()], |row| {
+        Ok((row.get(0)?, row.get::<_, Option<Vec<u8>>>(1)?, row.get(2)?))
+    });
+    let Some((name, walls, id)) = row.optional()? else {
+        return Ok(None);
+    };
+    let maze = match walls {
+        Some(walls) => unpack(&walls),
+        None => generated_name(connection, id)?
+            .map(|name| parse_generated(&name))
+            .transpose()?
+            .map(|it| it.generate()),
+    };
+    let maze = maze.filter(|it| it.digest() == *digest).ok_or_else(|| {
+        StoreErrorKind::Damaged(format!("maze {digest}: its walls have another digest"))
+    })?;
+    Ok(Some(StoredMaze {
+        name,
+        digest: *digest,
+        maze,
+    }))
+}
+
+/// A name that generates the maze.
+fn generated_name(connection: &Connection, maze: i64) -> Result<Option<String>, StoreErrorKind> {
+    // The name of the maze is the one of its generator, unless it has others too.
+    let sql = "SELECT g.name FROM generated g JOIN maze m ON m.id = g.maze \
+               WHERE g.generator = ?1 AND g.name = m.name AND m.id = ?2";
+    let mut statement = connection.prepare_cached(sql)?;
+    let name = statement.query_row(params![GENERATOR, maze], |row| row.get(0));
+    if let Some(name) = name.optional()? {
+        return Ok(Some(name));
+    }
+    let sql = "SELECT name FROM generated WHERE generator = ?1 AND maze = ?2";
+    let mut statement = connection.prepare_cached(sql)?;
+    let name = statement.query_row(params![GENERATOR, maze], |row| row.get(0));
+    Ok(name.optional()?)
+}
+
+/// The generated maze of that name.
+pub(super) fn parse_generated(name: &str) -> Result<GeneratedMaze, StoreErrorKind> {
+    let spec = name.parse::<GenSpec>().ok();
+    let maze = spec
+        .filter(|it| it.count() == 1)
+        .and_then(|it| it.expand().next());
+    maze.filter(|it| it.to_string() == name)
+        .ok_or_else(|| StoreErrorKind::Damaged(format!("`{name}` is no generated maze")))
+}
+
+/// A maze to store.
+#[derive(Clone, Debug)]
+pub(super) struct MazeRow {
+    pub name: String,
+    pub digest: Digest,
+    pub dimension: u8,
+    /// `None` for a maze that its name generates.
+    pub walls: Option<Vec<u8>>,
+    pub oracle: Option<Score>,
+}
+
+impl MazeRow {
+    pub fn new(maze: &ContestMaze) -> Self {
+        Self {
+            name: maze.name.clone(),
+            digest: maze.digest,
+            dimension: maze.maze.dimension(),
+            walls: (!maze.is_generated).then(|| pack(&maze.maze)),
+            oracle: maze.oracle,
+        }
+    }
+
+    /// Adds the maze unless it is there, and what depends on the rules. Returns its id.
+    pub fn put(&self, connection: &Connection, rules: i64) -> Result<i64, StoreErrorKind> {
+        let id = match ids::find(connection, Table::Maze, &self.digest)? {
+            Some(id) => {
+                let sql = "UPDATE maze SET name = ?2 WHERE id = ?1 AND name > ?2";
+                connection
+                    .prepare_cached(sql)?
+                    .execute(params![id, self.name])?;
+                id
+            }
+            None => {
+                let sql = "INSERT INTO maze(digest, name, dimension, walls) VALUES(?1, ?2, ?3, ?4)";
+                connection.prepare_cached(sql)?.execute(params![
+                    self.digest.as_bytes(),
+                    self.name,
+                    self.dimension,
+                    self.walls,
+                ])?;
+                connection.last_insert_rowid()
+            }
+        };
+        let sql = "INSERT INTO oracle(maze, rules, oracle_exploration, oracle_speed) \
+                   VALUES(?1, ?2, ?3, ?4) ON CONFLICT DO NOTHING";
+        connection.prepare_cached(sql)?.execute(params![
+            id,
+            rules,
+            self.oracle.map(Score::exploration_steps),
+            self.oracle.map(Score::speed_steps),
+        ])?;
+        if self.walls.is_none() {
+            put_generated(connection, &self.name, id)?;
+        }
+        Ok(id)
+    }
+}
+
+/// Adds the name of a generated maze.
+pub(super) fn put_generated(
+    connection: &Connection,
+    name: &str,
+    maze: i64,
+) -> Result<(), StoreErrorKind> {
+    let sql =
+        "INSERT INTO generated(generator, name, maze) VALUES(?1, ?2, ?3) ON CONFLICT DO NOTHING";
+    connection
+        .prepare_cached(sql)?
+        .execute(params![GENERATOR, name, maze])?;
+    Ok(())
+}
+
+/// The number of bytes before the walls: those of [`Maze::identity_bytes`].
+const HEADER: usize = 7;
+
+/// A maze in about a quarter of its [identity bytes](Maze::identity_bytes): their first seven,
+/// then two bits for each cell, whether it is open up (1) and right (2). The other two sides are
+/// those of its neighbours.
+pub(super) fn pack(maze: &Maze) -> Vec<u8> {
+    let identity = maze.identity_bytes();
+    let (header, values) = identity.split_at(HEADER);
+    let mut bytes = header.to_vec();
+    bytes.extend(values.chunks(4).map(|values| {
+        let cells = values.iter().enumerate();
+        cells.fold(0, |byte, (place, value)| byte | (value & 3) << (2 * place))
+    }));
+    bytes
+}
+
+/// The maze of such bytes; `None` if there is none.
+pub(super) fn unpack(bytes: &[u8]) -> Option<Maze> {
+    let (&[dimension, start_x, start_y, goal_x, goal_y, width, height], packed) =
+        bytes.split_first_chunk::<HEADER>()?;
+    let cells = usize::from(dimension) * usize::from(dimension);
+    if !DIMENSIONS.contains(&dimension) || packed.len() != cells.div_ceil(4) {
+        return None;
+    }
+    let mut walls = Walls::closed(dimension);
+    for (index, cell) in walls.cells().enumerate() {
+        let value = packed[index / 4] >> (2 * (index % 4));
+        for heading in [Heading::Up, Heading::Right] {
+            if value & heading.bit() != 0 {
+                walls.neighbor(cell, heading)?;
+                walls.set(cell, heading, true);
+            }
+        }
+    }
+    let goal = Area::new(Cell::new(goal_x, goal_y), width, height)?;
+    Maze::new(walls, Cell::new(start_x, start_y), goal).ok()
+}
