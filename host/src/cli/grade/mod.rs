@@ -18,6 +18,7 @@ use wasmouse_engine::engine_id;
 
 use super::exit::Exit;
 use super::failure::Failure;
+use super::interrupt;
 use super::output::{self, Existing};
 use super::play::{Pace, play_all};
 use super::setup::{EngineArgs, IsolationArgs, TimeArgs};
@@ -95,6 +96,8 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     let bytes_max = executor.limits().admission.component_bytes_max;
     let references = submissions::references(&rubric, bytes_max)?;
     let outputs = Outputs::create(&args.outputs, args.robots.len())?;
+    // From here on, Ctrl-C ends the work early and everything is written.
+    interrupt::listen()?;
     let field = Field::load(&args.robots, references, &executor)?;
     outputs.check(&field.submissions)?;
 
