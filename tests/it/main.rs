@@ -12,6 +12,8 @@ mod admitted;
 mod cache;
 /// The champion: it finishes, its proofs hold, it was not trained on test mazes.
 mod champion;
+/// Release archives, installers, workflows, and scripts for graders.
+mod ci;
 /// The command line: output, files, exit codes.
 mod cli;
 /// The rules: recorded matches and matches written by hand.

@@ -8,8 +8,10 @@ use std::path::{Path, PathBuf};
 
 pub mod bindings;
 pub mod corpus;
+pub mod dist;
 pub mod fuzz;
 pub mod manifest;
+pub mod platforms;
 pub mod reference;
 pub mod robots;
 pub mod sources;
