@@ -34,6 +34,8 @@ mod faults;
 mod fingerprints;
 /// Maze files: reading, round trips, and a survey counted in another way.
 mod formats;
+/// `wasmouse grade`: rubrics, robots of every kind, and all formats.
+mod grade;
 /// Robots in WebAssembly text, and a good robot that plays after them.
 mod hostile;
 /// Ctrl-C during a contest.

@@ -146,7 +146,7 @@ fn play(seeds: Seeds) -> (Results, Vec<u8>) {
         jobs: 1,
         cancelled: &AtomicBool::new(false),
         wanted: &|_| true,
-        progress: &|| {},
+        ended: &|_, _| Ok(()),
         robot_time: None,
     };
     run(&plan, &executor, &options, &mut sink).expect("a contest");

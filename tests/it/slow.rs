@@ -235,7 +235,7 @@ fn play(executor: Box<dyn Executor>, robots: &[&[u8]], seeds: Seeds) -> (Missing
         jobs: 1,
         cancelled: &AtomicBool::new(false),
         wanted: &|_| true,
-        progress: &|| (),
+        ended: &|_, _| Ok(()),
         robot_time: None,
     };
     let (mut missing, mut summary) = (Missing::default(), SummaryBuilder::new());

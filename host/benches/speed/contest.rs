@@ -72,7 +72,7 @@ impl Stage {
             jobs,
             cancelled: &cancelled,
             wanted: &|_| true,
-            progress: &|| (),
+            ended: &|_, _| Ok(()),
             robot_time: None,
         };
         let mut count = Count(0);

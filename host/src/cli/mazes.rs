@@ -4,7 +4,7 @@
 //! read, parsed and, unless the user says `--lenient`, checked against the contest rules.
 
 use std::collections::hash_map::Entry;
-use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -18,8 +18,8 @@ use wasmouse_core::maze::{BundledMaze, Maze, bundled, violations};
 use super::failure::Failure;
 use super::input;
 use super::output::message;
-use super::suggest::suggestion;
 use crate::contest::MazeSource;
+use crate::contest::config::suggestion;
 use crate::report::text::{Text, text};
 
 /// What a user may write for a maze, for the long help of every command.
@@ -84,31 +84,26 @@ pub fn load(
     rules: Legality,
     bad_files: BadFiles,
 ) -> Result<Vec<MazeSource>, Failure> {
-    let mut sources = Vec::new();
+    let mut requests = Vec::new();
     for argument in arguments {
-        let is_folder = Path::new(argument).is_dir();
-        let may_skip = is_folder && bad_files == BadFiles::Skip;
-        sources.extend(resolve(argument)?.into_iter().map(|it| (it, may_skip)));
+        let bad_files = if Path::new(argument).is_dir() {
+            bad_files
+        } else {
+            BadFiles::Fail
+        };
+        requests.extend(resolve(argument)?.into_iter().map(|source| Request {
+            source,
+            rules,
+            bad_files,
+        }));
     }
-    let stdins = sources
-        .iter()
-        .filter(|(source, _)| *source == Source::Stdin);
+    let stdins = requests.iter().filter(|it| it.source == Source::Stdin);
     if stdins.count() > 1 {
         return Err(Failure::usage("standard input is given as a maze twice"));
     }
-    let names = unique_names(sources.iter().map(|(source, _)| source));
-    let mut mazes = Vec::with_capacity(sources.len());
-    let mut skipped = 0_usize;
-    for ((source, may_skip), name) in sources.iter().zip(names) {
-        match source.load(name, rules) {
-            Ok(maze) => mazes.push(maze),
-            Err(failure) if *may_skip => {
-                skipped += 1;
-                message!("warning: skipped a maze: {}", failure.message());
-            }
-            Err(failure) => return Err(failure),
-        }
-    }
+    let mazes = load_requests(&requests, "--lenient accepts it")?;
+    let mazes: Vec<MazeSource> = mazes.into_iter().flatten().collect();
+    let skipped = requests.len() - mazes.len();
     if mazes.is_empty() {
         return Err(Failure::input("none of the mazes can be used")
             .hint("the warnings above say why; --lenient accepts mazes that break contest rules"));
@@ -117,53 +112,84 @@ pub fn load(
         message!(
             "warning: skipped {} of {} mazes; --strict makes this an error",
             skipped,
-            sources.len()
+            requests.len()
         );
     }
     Ok(mazes)
 }
 
+/// A maze to load.
+pub struct Request {
+    /// Where it is.
+    pub source: Source,
+    /// Whether it has to be legal.
+    pub rules: Legality,
+    /// What to do if it is no maze or not legal.
+    pub bad_files: BadFiles,
+}
+
+/// Loads mazes; `None` stands for one that was skipped. Two of them never have the same name,
+/// unless they are the same file. The hint says how to use a maze that is not legal.
+///
+/// # Errors
+///
+/// With the first one that cannot be used, unless it may be skipped.
+pub fn load_requests(
+    requests: &[Request],
+    hint: &'static str,
+) -> Result<Vec<Option<MazeSource>>, Failure> {
+    let names = unique_names(requests.iter().map(|it| &it.source));
+    let load = |(request, name): (&Request, String)| {
+        let loaded = request.source.load(name, request.rules, hint);
+        match loaded {
+            Err(failure) if request.bad_files == BadFiles::Skip => {
+                message!("warning: skipped a maze: {}", failure.message());
+                Ok(None)
+            }
+            loaded => loaded.map(Some),
+        }
+    };
+    requests.iter().zip(names).map(load).collect()
+}
+
 /// The mazes without those that are given twice: their matches would be the same matches.
 pub fn distinct(mazes: Vec<MazeSource>) -> Vec<MazeSource> {
-    let mut seen = Seen::default();
-    let is_new = |maze: &MazeSource| {
-        let twin = seen.twin(maze);
-        if let Some(twin) = &twin {
+    let mut seen = HashMap::new();
+    let is_new = |maze: &MazeSource| match seen.entry(Identity::of(maze)) {
+        Entry::Occupied(twin) => {
+            let twin: &String = twin.get();
             message!(
                 "warning: skipped `{}`, which is the same maze as `{}`",
                 maze.name(),
                 twin
             );
+            false
         }
-        twin.is_none()
+        Entry::Vacant(place) => {
+            place.insert(maze.name());
+            true
+        }
     };
     let mut mazes = mazes;
     mazes.retain(is_new);
     mazes
 }
 
-/// The mazes of a contest by now.
-#[derive(Default)]
-struct Seen {
-    loaded: HashMap<Digest, String>,
-    generated: HashSet<GeneratedMaze>,
+/// What tells mazes apart without generating them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Identity {
+    /// The digest of one that was read.
+    Loaded(Digest),
+    /// The specification of one that is generated.
+    Generated(GeneratedMaze),
 }
 
-impl Seen {
-    /// The name under which the same maze was given before.
-    fn twin(&mut self, maze: &MazeSource) -> Option<String> {
+impl Identity {
+    /// The identity of a maze.
+    pub fn of(maze: &MazeSource) -> Self {
         match maze {
-            MazeSource::Loaded { name, maze } => match self.loaded.entry(maze.digest()) {
-                Entry::Occupied(twin) => Some(twin.get().clone()),
-                Entry::Vacant(place) => {
-                    place.insert(name.clone());
-                    None
-                }
-            },
-            MazeSource::Generated(maze) => {
-                let is_new = self.generated.insert(*maze);
-                (!is_new).then(|| maze.to_string())
-            }
+            MazeSource::Loaded { maze, .. } => Self::Loaded(maze.digest()),
+            MazeSource::Generated(maze) => Self::Generated(*maze),
         }
     }
 }
@@ -231,11 +257,19 @@ pub fn resolve(spec: &str) -> Result<Vec<Source>, Failure> {
     if let Some(maze) = bundled().iter().find(|maze| maze.name == spec) {
         return Ok(vec![Source::Bundled(maze)]);
     }
-    let path = Path::new(spec);
+    at_path(Path::new(spec))?.ok_or_else(|| unknown(spec))
+}
+
+/// The source at a path, or all mazes of a folder; `None` if nothing is there.
+///
+/// # Errors
+///
+/// When it cannot be read, or is a folder without mazes.
+pub fn at_path(path: &Path) -> Result<Option<Vec<Source>>, Failure> {
     match fs::metadata(path) {
-        Ok(metadata) if metadata.is_dir() => folder(path),
-        Ok(_) => Ok(vec![Source::File(path.to_owned())]),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Err(unknown(spec)),
+        Ok(metadata) if metadata.is_dir() => folder(path).map(Some),
+        Ok(_) => Ok(Some(vec![Source::File(path.to_owned())])),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(unreadable(path, &error)),
     }
 }
@@ -270,14 +304,19 @@ impl Source {
     }
 
     /// The maze for a contest under that name.
-    fn load(&self, name: String, rules: Legality) -> Result<MazeSource, Failure> {
+    fn load(
+        &self,
+        name: String,
+        rules: Legality,
+        hint: &'static str,
+    ) -> Result<MazeSource, Failure> {
         // Generated mazes are legal by construction.
         if let Self::Generated(maze) = self {
             return Ok(MazeSource::Generated(*maze));
         }
         let (maze, _) = self.read()?;
         if rules == Legality::Contest {
-            require_legal(self, &maze)?;
+            require_legal(self, &maze, hint)?;
         }
         let maze = Arc::new(maze);
         Ok(MazeSource::Loaded { name, maze })
@@ -358,7 +397,8 @@ fn folder(path: &Path) -> Result<Vec<Source>, Failure> {
     Ok(files.into_iter().map(Source::File).collect())
 }
 
-fn is_maze_file(path: &Path) -> bool {
+/// Whether a file of a folder is taken for a maze: by the ending of its name.
+pub fn is_maze_file(path: &Path) -> bool {
     let is_hidden = path
         .file_name()
         .is_some_and(|name| name.as_encoded_bytes().starts_with(b"."));
@@ -370,7 +410,7 @@ fn is_maze_file(path: &Path) -> bool {
     has_extension && !is_hidden
 }
 
-fn require_legal(source: &Source, maze: &Maze) -> Result<(), Failure> {
+fn require_legal(source: &Source, maze: &Maze, hint: &'static str) -> Result<(), Failure> {
     let broken = violations(maze);
     if broken.is_empty() {
         return Ok(());
@@ -385,7 +425,7 @@ fn require_legal(source: &Source, maze: &Maze) -> Result<(), Failure> {
     for violation in broken {
         message = text!("{}\n  {}", message, violation);
     }
-    Err(Failure::input(message).hint("--lenient accepts it"))
+    Err(Failure::input(message).hint(hint))
 }
 
 fn unreadable(path: &Path, error: &io::Error) -> Failure {

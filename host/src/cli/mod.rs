@@ -8,9 +8,12 @@ mod again;
 mod backtrace;
 mod build;
 mod completions;
+mod contest;
 mod demo;
 mod exit;
+mod fail_under;
 mod failure;
+mod grade;
 mod input;
 mod inspect;
 mod interrupt;
@@ -21,6 +24,7 @@ mod mazes;
 mod new;
 mod output;
 mod page;
+mod pattern;
 mod play;
 mod reproduce;
 mod resolve;
@@ -28,7 +32,6 @@ mod robot_list;
 mod robots;
 mod run;
 mod setup;
-mod suggest;
 mod terminal;
 mod toolchain;
 mod verdict;
@@ -61,7 +64,10 @@ struct Cli {
 enum Command {
     Demo(demo::Args),
     Run(run::Args),
+    Grade(grade::Args),
     Verify(verify::Args),
+    /// Run contests that are described by a contest file
+    Contest(contest::Args),
     Robots(robot_list::Args),
     Inspect(inspect::Args),
     /// Check, convert, draw, solve and generate mazes
@@ -109,7 +115,9 @@ fn command() -> ExitCode {
     let outcome: Result<Exit, Failure> = match cli.command {
         Command::Demo(args) => demo::run(&args),
         Command::Run(args) => run::run(&args),
+        Command::Grade(args) => grade::run(&args),
         Command::Verify(args) => verify::run(&args),
+        Command::Contest(args) => contest::run(&args),
         Command::Robots(args) => robot_list::run(&args),
         Command::Inspect(args) => inspect::run(&args),
         Command::Maze(args) => maze::run(args),

@@ -41,7 +41,10 @@ pub fn play(
         jobs: pace.jobs,
         cancelled,
         wanted,
-        progress: &|| bar.inc(1),
+        ended: &|_, _| {
+            bar.inc(1);
+            Ok(())
+        },
         robot_time: pace.robot_time,
     };
     let played = contest::run(plan, executor, &options, sink);

@@ -18,7 +18,7 @@ use super::build;
 use super::failure::Failure;
 use super::input;
 use super::output::message;
-use super::suggest::suggestion;
+use crate::contest::config::suggestion;
 use crate::contest::{Entrant, NotAdmitted};
 use crate::report::escape::for_terminal;
 use crate::report::text::Text;
@@ -57,7 +57,7 @@ pub fn is_robot(argument: &str) -> bool {
         find(text).is_some()
             || has_wasm_extension(path)
             || build::is_project(path)
-            || (path.is_dir() && input::has_any(path, has_wasm_extension))
+            || (path.is_dir() && has_robots(path))
     };
     names_robot(argument) || split_variant(argument).is_some_and(|(text, _)| names_robot(text))
 }
@@ -90,15 +90,7 @@ pub fn resolve(argument: &str) -> Result<Vec<RobotSpec>, Failure> {
         }]);
     }
     let variant = variant.map_or(0, |it| it.parse().expect("checked to be a number above"));
-    let path = Path::new(text);
-    let files = if build::is_project(path) {
-        vec![build::build_project(path)?]
-    } else if path.is_dir() {
-        folder(path)?
-    } else {
-        warn_if_stale(path);
-        vec![path.to_owned()]
-    };
+    let files = files_at(Path::new(text))?;
     if name.is_some() && files.len() > 1 {
         let message = format!("`{}` names more than one robot", for_terminal(argument));
         return Err(Failure::usage(message).hint("give a name to a single file"));
@@ -109,6 +101,23 @@ pub fn resolve(argument: &str) -> Result<Vec<RobotSpec>, Failure> {
         name: name.clone(),
     });
     Ok(specs.collect())
+}
+
+/// The files of the robots at a path: a file, all robots of a folder, or what a robot project
+/// builds.
+///
+/// # Errors
+///
+/// When a folder has no robots, or a project cannot be built.
+pub fn files_at(path: &Path) -> Result<Vec<PathBuf>, Failure> {
+    if build::is_project(path) {
+        Ok(vec![build::build_project(path)?])
+    } else if path.is_dir() {
+        folder(path)
+    } else {
+        warn_if_stale(path);
+        Ok(vec![path.to_owned()])
+    }
 }
 
 /// Takes `NAME=` off the front of an argument. A file whose own name has a `=` in it is meant
@@ -158,13 +167,18 @@ pub fn folder(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(files)
 }
 
+/// Whether a folder has robots in files.
+pub fn has_robots(folder: &Path) -> bool {
+    input::has_any(folder, has_wasm_extension)
+}
+
 /// The files in a folder that end in `.wasm`, by name.
 fn wasm_files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
     input::list(folder, has_wasm_extension)
 }
 
 /// Whether a file has the extension of robots.
-fn has_wasm_extension(path: &Path) -> bool {
+pub fn has_wasm_extension(path: &Path) -> bool {
     path.extension()
         .is_some_and(|extension| extension.eq_ignore_ascii_case("wasm"))
 }
@@ -197,6 +211,36 @@ impl RobotSpec {
         }
     }
 
+    /// A bundled robot in a variant, with a name if it has one of its own.
+    pub const fn of_bundled(
+        robot: &'static BundledRobot,
+        variant: u32,
+        name: Option<String>,
+    ) -> Self {
+        Self {
+            source: Source::Bundled(robot),
+            variant,
+            name,
+        }
+    }
+
+    /// A robot in a file, in a variant, with a name if it is not that of the file.
+    pub const fn of_file(path: PathBuf, variant: u32, name: Option<String>) -> Self {
+        Self {
+            source: Source::File(path),
+            variant,
+            name,
+        }
+    }
+
+    /// The file; `None` for a bundled robot.
+    pub fn file(&self) -> Option<&Path> {
+        match &self.source {
+            Source::File(path) => Some(path),
+            Source::Bundled(_) => None,
+        }
+    }
+
     /// Whose code it is: bundled robots are trusted.
     pub const fn trust(&self) -> Trust {
         match self.source {
@@ -219,7 +263,7 @@ impl RobotSpec {
 
     /// What results call it if nothing else is called so: the given name, or the bundled name
     /// or file name without its extension, with the variant.
-    fn short_name(&self) -> String {
+    pub fn short_name(&self) -> String {
         match (&self.name, &self.source) {
             (Some(name), _) => self.with_variant(name.clone()),
             (None, Source::Bundled(robot)) => self.with_variant(robot.name.to_owned()),
@@ -382,8 +426,13 @@ pub fn setup_failure(error: &InfrastructureError) -> Failure {
     Failure::internal(error).hint(hint)
 }
 
-/// The short names, or the labels of those robots that share a short name with another.
-fn unique_names(specs: &[RobotSpec]) -> Result<Vec<String>, Failure> {
+/// The short names, or the labels of those robots that share a short name with another: what
+/// results call them.
+///
+/// # Errors
+///
+/// When two robots have the same name.
+pub fn unique_names(specs: &[RobotSpec]) -> Result<Vec<String>, Failure> {
     let short: Vec<String> = specs.iter().map(RobotSpec::short_name).collect();
     let is_shared = |name: &String| short.iter().filter(|it| *it == name).count() > 1;
     let names: Vec<String> = specs

@@ -204,6 +204,12 @@ impl ScoreMatrix {
         self.cells[self.index(robot, maze, seed)].as_ref()
     }
 
+    /// The matches of all robots in a maze with the seed at that position, by robot.
+    pub fn row(&self, maze: usize, seed: u32) -> &[Option<MatchScore>] {
+        let first = self.index(0, maze, seed);
+        &self.cells[first..first + self.robots.len()]
+    }
+
     /// Records a match that was played.
     pub fn set(&mut self, robot: usize, maze: usize, seed: u32, score: MatchScore) {
         let index = self.index(robot, maze, seed);

@@ -5,12 +5,17 @@
 //! the parts of the [`Results`] document are sinks. Prints nothing and opens no files.
 
 mod best;
+mod commitment;
+pub mod config;
 mod difference;
 mod faults;
+mod file;
+pub mod grade;
 mod matrix;
 mod maze_source;
 mod mean;
 mod plan;
+mod ranking;
 mod results;
 mod run;
 mod scoring;
@@ -20,21 +25,32 @@ mod tally;
 mod verify;
 
 pub use best::{BestMatch, BestMatches};
+pub use commitment::{
+    Broken, COMMITMENT_VERSION, Commitment, CommittedSet, OpenedMaze, OpenedSet, Opening,
+};
 pub use difference::{FieldDifference, differences};
 pub use faults::{FaultGroup, FaultSummary};
+pub use file::{
+    CONTEST_FILE_VERSION, ClassEntry, ContestFile, GameEntry, KeepTranscripts, MazesEntry,
+    NamesFrom, Outputs, ReportOptions, RobotSource, RobotsEntry, RulesEntry, RunOptions,
+    SandboxEntry, SeedsEntry, VariantRef, template,
+};
 pub use matrix::{
     MatchScore, MatrixBuilder, MatrixFault, MatrixMaze, MatrixRobot, MazeSet, Outcome, ScoreMatrix,
 };
 pub use maze_source::{ContestMaze, MazeSource};
 pub use mean::Mean;
 pub use plan::{Entrant, KeyParts, NotAdmitted, Plan, Player, Seeds};
+pub use ranking::{
+    MazeFilter, PairedComparison, PairedVerdict, Percentiles, Ranking, RankingLine, RobotState,
+};
 pub use results::{
     ContestInfo, MazeEntry, Names, RESULTS_VERSION, RejectionEntry, Results, RobotEntry, Summary,
     SummaryBuilder, WithdrawalEntry, records_digest,
 };
 pub use run::{Options, RunError, default_robot_time, run};
-pub use scoring::{Method, Scoring, TieBreak, worst_score_steps};
-pub use sink::{ContestMatch, MatchFailure, RecordList, Sink, Tee};
+pub use scoring::{Method, Scoring, TIE_BREAKS_DEFAULT, TieBreak, worst_score_steps};
+pub use sink::{ContestMatch, Ended, MatchFailure, RecordList, Sink, Tee};
 pub use standings::{Standing, Standings, StandingsBuilder};
 pub use tally::{Regret, Tally};
 pub use verify::{Compared, compare, compare_played};

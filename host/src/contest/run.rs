@@ -24,7 +24,7 @@ use wasmouse_engine::{Executor, InfrastructureError, Played, STACK_BYTES};
 
 use super::maze_source::ContestMaze;
 use super::plan::{KeyParts, Plan, Player};
-use super::sink::{ContestMatch, MatchFailure, Sink};
+use super::sink::{ContestMatch, Ended, MatchFailure, Sink};
 
 /// Matches of one player that a thread takes at once, at most.
 const BATCH_MAX: usize = 64;
@@ -56,8 +56,10 @@ pub struct Options<'a> {
     pub cancelled: &'a AtomicBool,
     /// Which matches to play: all, or those that are missing somewhere.
     pub wanted: &'a (dyn Fn(&MatchKey) -> bool + Sync),
-    /// Called for every match as it ends, from any thread.
-    pub progress: &'a (dyn Fn() + Sync),
+    /// Called for every match as it ends, with its maze: from any thread and in any order, so that
+    /// what has ended can be stored or shown before matches that come first in the plan. The
+    /// contest ends when it fails.
+    pub ended: &'a (dyn Fn(&ContestMaze, &Ended) -> io::Result<()> + Sync),
     /// Processor time that each robot may use, in all its variants together; `None` is
     /// [`default_robot_time`].
     pub robot_time: Option<Duration>,
@@ -186,12 +188,6 @@ struct Slots {
     matches: Vec<Option<Ended>>,
     /// Batches that have not ended.
     batches_left: usize,
-}
-
-enum Ended {
-    Played(ContestMatch),
-    Failed(MatchFailure),
-    Withdrawn(MatchFailure),
 }
 
 /// Rows of one player, relative to the block.
@@ -368,8 +364,8 @@ impl Run<'_> {
             done += 1;
             match self.ended(batch, spec, result) {
                 Some(ended) => {
+                    self.report(self.maze(block, first + row as u64), &ended);
                     played.ended[row - batch.rows.start] = Some(ended);
-                    (self.options.progress)();
                 }
                 None => played.put_off.push(single(row, true)),
             }
@@ -387,11 +383,12 @@ impl Run<'_> {
             && let (Some(&row), Some(spec)) = (rows.get(done), specs.get(done))
         {
             done += 1;
-            played.ended[row - batch.rows.start] = Some(Ended::Failed(MatchFailure {
+            let ended = Ended::Failed(MatchFailure {
                 key: spec.key,
                 reason: "wasmouse panicked, which is a bug".to_owned(),
-            }));
-            (self.options.progress)();
+            });
+            self.report(self.maze(block, first + row as u64), &ended);
+            played.ended[row - batch.rows.start] = Some(ended);
         }
         if !self.is_cancelled() {
             let rest = rows.get(done..).unwrap_or_default();
@@ -468,6 +465,13 @@ impl Run<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Tells the one who asked for it that a match has ended.
+    fn report(&self, maze: &ContestMaze, ended: &Ended) {
+        if let Err(error) = (self.options.ended)(maze, ended) {
+            self.fail(RunError::Sink(error));
+        }
     }
 
     fn fail(&self, error: RunError) {

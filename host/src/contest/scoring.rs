@@ -14,8 +14,39 @@ pub struct Scoring {
     /// least 1.
     pub unfinished_steps: Option<u32>,
     /// What decides between robots that are equal by the method, in this order. Robots that are
-    /// still equal share a rank.
+    /// still equal share a rank. Empty is [`TIE_BREAKS_DEFAULT`].
     pub tie_breaks: Vec<TieBreak>,
+}
+
+/// The tie-breaks of a contest that names none.
+pub const TIE_BREAKS_DEFAULT: [TieBreak; 4] = [
+    TieBreak::Finished,
+    TieBreak::MedianScore,
+    TieBreak::ExplorationSteps,
+    TieBreak::Fuel,
+];
+
+impl Scoring {
+    /// What an unfinished match counts as, in steps.
+    ///
+    /// ```
+    /// use wasmouse::contest::Scoring;
+    /// use wasmouse_core::game::GameRules;
+    ///
+    /// assert_eq!(Scoring::default().penalty_steps(&GameRules::default()), 1000);
+    /// ```
+    pub fn penalty_steps(&self, rules: &GameRules) -> u32 {
+        self.unfinished_steps
+            .unwrap_or_else(|| worst_score_steps(rules))
+    }
+
+    /// What decides between robots that are equal by the method.
+    pub fn order(&self) -> &[TieBreak] {
+        match self.tie_breaks.as_slice() {
+            [] => &TIE_BREAKS_DEFAULT,
+            tie_breaks => tie_breaks,
+        }
+    }
 }
 
 /// What robots are ranked by.
@@ -27,10 +58,13 @@ pub enum Method {
     #[default]
     MeanScore,
     /// The average of score minus oracle score; an unfinished match has the regret of
-    /// [`Scoring::unfinished_steps`]. Lower is better.
+    /// [`Scoring::unfinished_steps`]. Lower is better. All ranked robots have played the same
+    /// mazes, so this ranks them as `MeanScore` does, but with numbers that can be compared
+    /// between contests.
     Regret,
     /// Points for each match: one for each robot that scored worse in the same maze with the same
-    /// seed, and half a point for each that did equally well. Higher is better.
+    /// seed, and half a point for each that did equally well. Any score is better than an
+    /// unfinished match. Higher is better.
     RankPoints,
 }
 
@@ -40,9 +74,10 @@ pub enum Method {
 pub enum TieBreak {
     /// More finished matches.
     Finished,
-    /// The lower median score, unfinished matches included as the worst.
+    /// The lower median score; unfinished matches count as [`Scoring::unfinished_steps`].
     MedianScore,
-    /// The lower average of the exploration run's steps over the finished matches.
+    /// The lower average of the exploration run's steps over the finished matches. Robots that
+    /// finished none come last.
     ExplorationSteps,
     /// Less fuel a step.
     Fuel,

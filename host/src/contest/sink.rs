@@ -29,6 +29,17 @@ pub struct MatchFailure {
     pub reason: String,
 }
 
+/// What came of a match of a contest.
+#[derive(Clone, Debug)]
+pub enum Ended {
+    /// It was played.
+    Played(ContestMatch),
+    /// The host could not play it.
+    Failed(MatchFailure),
+    /// It was not played because its robot was withdrawn, and why.
+    Withdrawn(MatchFailure),
+}
+
 /// Receives the matches of a contest in the order of its plan, whatever the number of threads.
 pub trait Sink: Send {
     /// A maze, before the first of its matches.

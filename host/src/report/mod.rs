@@ -6,8 +6,11 @@
 //! types can change without changing what other programs read.
 
 pub mod bundled;
+pub mod config;
+pub mod contest_check;
 pub mod escape;
 pub mod faults;
+pub mod grade;
 pub mod inspection;
 mod json;
 pub mod jsonl;

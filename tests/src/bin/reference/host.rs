@@ -101,7 +101,7 @@ impl Host {
             jobs: self.jobs,
             cancelled: &AtomicBool::new(false),
             wanted: &|_| true,
-            progress: &|| (),
+            ended: &|_, _| Ok(()),
             robot_time: None,
         };
         run(&plan, &self.executor, &options, sink).map_err(|error| error.to_string())
