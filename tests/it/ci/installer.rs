@@ -16,14 +16,14 @@ use crate::binary::{Ran, ran};
 const OTHER: &str = "riscv128-unknown-linux-gnu";
 
 /// A folder of archives, as a release has it.
-struct Release {
+pub struct Release {
     folder: TempDir,
     target: String,
 }
 
 impl Release {
     /// With a program that prints a line.
-    fn new(target: &str, line: &str) -> Self {
+    pub fn new(target: &str, line: &str) -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let program = folder.path().join("program");
         fs::write(&program, format!("#!/bin/sh\necho '{line}'\n")).expect("a file");
@@ -49,13 +49,13 @@ impl Release {
         self.archive().with_extension("gz.sha256")
     }
 
-    fn address(&self) -> String {
+    pub fn address(&self) -> String {
         format!("file://{}", self.folder.path().display())
     }
 }
 
 /// The platform of this machine, as the installer names it.
-fn this_target() -> String {
+pub fn this_target() -> String {
     let system = if cfg!(target_os = "macos") {
         "apple-darwin"
     } else if cfg!(target_env = "musl") {

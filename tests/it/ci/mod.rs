@@ -3,6 +3,9 @@
 
 /// The archives of a release.
 mod archives;
+/// The scripts for GitHub's runner, Gradescope and clusters, run for real.
+#[cfg(unix)]
+mod graders;
 /// `install.sh` against good and bad folders of archives.
 #[cfg(unix)]
 mod installer;
