@@ -14,11 +14,12 @@ use super::repository_file;
 use crate::binary::{path, ran};
 
 /// Folders with YAML files, scripts or both.
-const FOLDERS: [&str; 4] = [
+const FOLDERS: [&str; 5] = [
     ".github/workflows",
     ".github/actions/grade",
     "docs/ci",
     "docs/ci/gradescope",
+    "host/templates/new",
 ];
 
 /// Where the workflow for repositories of robots leaves a name and a commit to be filled in.
@@ -43,9 +44,9 @@ fn is_yaml(path: &Path) -> bool {
 
 fn is_workflow(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    is_yaml(path)
-        && (path.parent().is_some_and(|it| it.ends_with("workflows"))
-            || name.starts_with("github-"))
+    let folder = path.parent().unwrap_or(path);
+    let is_of_folder = folder.ends_with("workflows") || folder.ends_with("new");
+    is_yaml(path) && (is_of_folder || name.starts_with("github-"))
 }
 
 fn is_script(path: &Path) -> bool {
