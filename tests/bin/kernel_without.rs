@@ -5,7 +5,6 @@
 //! The system calls of the features fail with ENOSYS, for the program and for everything
 //! that it starts.
 
-use std::collections::BTreeMap;
 use std::io;
 
 fn main() -> io::Result<()> {
@@ -21,6 +20,7 @@ fn main() -> io::Result<()> {
 #[cfg(target_os = "linux")]
 fn run(features: &[String], program: &str, arguments: &[String]) -> io::Result<()> {
     use seccompiler::{BpfProgram, SeccompAction, SeccompFilter};
+    use std::collections::BTreeMap;
     use std::os::unix::process::CommandExt as _;
 
     let mut calls = BTreeMap::new();

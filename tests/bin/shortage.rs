@@ -6,10 +6,10 @@
 //! of the match.
 
 use std::error::Error;
-use std::os::fd::AsRawFd as _;
 use std::sync::Arc;
 use std::{env, fs};
 
+#[cfg(target_os = "linux")]
 use rustix::process::{Resource, Rlimit, setrlimit};
 use wasmouse_core::game::Ruleset;
 use wasmouse_core::maze::{self, format};
@@ -17,6 +17,7 @@ use wasmouse_core::record::{MatchKey, MatchSpec};
 use wasmouse_engine::{Executor as _, InProcess, Limits, engine_id};
 
 /// What is left of memory: enough for everything but a large linear memory.
+#[cfg(target_os = "linux")]
 const SPARE_BYTES: u64 = 24 << 20;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -67,7 +68,10 @@ fn play(executor: &InProcess, file: &[u8], what: &str, moment: &str) -> String {
     }
 }
 
+#[cfg(target_os = "linux")]
 fn shorten(what: &str) {
+    use std::os::fd::AsRawFd as _;
+
     match what {
         "nothing" => {}
         "data" => limit(Resource::Data, memory("VmData:") + SPARE_BYTES),
@@ -80,6 +84,12 @@ fn shorten(what: &str) {
     }
 }
 
+#[cfg(not(target_os = "linux"))]
+fn shorten(_: &str) {
+    panic!("only Linux tells how much memory a process has");
+}
+
+#[cfg(target_os = "linux")]
 fn limit(resource: Resource, most: u64) {
     let most = Rlimit {
         current: Some(most),
@@ -89,6 +99,7 @@ fn limit(resource: Resource, most: u64) {
 }
 
 /// A field of this process's status, in bytes.
+#[cfg(target_os = "linux")]
 fn memory(field: &str) -> u64 {
     let status = fs::read_to_string("/proc/self/status").expect("Linux has it");
     let line = status.lines().find_map(|line| line.strip_prefix(field));

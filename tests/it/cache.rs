@@ -9,11 +9,12 @@ use tempfile::TempDir;
 use wasmouse_core::Digest;
 use wasmouse_core::game::SandboxLimits;
 use wasmouse_core::record::MatchRecord;
+#[cfg(unix)]
+use wasmouse_engine::InfrastructureError;
 use wasmouse_engine::bundled::find;
-use wasmouse_engine::{
-    Cache, CacheUse, Executor, InProcess, InfrastructureError, Limits, WASMTIME_VERSION,
-};
+use wasmouse_engine::{Cache, CacheUse, Executor, InProcess, Limits, WASMTIME_VERSION};
 
+#[cfg(target_os = "linux")]
 use crate::hostile::wasm;
 use crate::matches::{WORKER, bundled_mazes, rules, sandboxed, spec};
 

@@ -83,7 +83,12 @@ fn command(folder: &Path, arguments: &str) -> Command {
 /// Runs the command lines in one folder and compares what came of them.
 #[track_caller]
 fn check(name: &str, command_lines: &[&str]) {
-    let folder = folder();
+    check_in(&folder(), name, command_lines);
+}
+
+/// Runs the command lines in that folder and compares what came of them.
+#[track_caller]
+fn check_in(folder: &TempDir, name: &str, command_lines: &[&str]) {
     let mut transcript = String::new();
     for line in command_lines {
         let Ran {
@@ -161,6 +166,9 @@ fn help_in_two_lengths() {
         "maze solve",
         "maze generate",
         "maze convert",
+        "contest",
+        "contest init",
+        "contest check",
         "new",
         "build",
         "completions",
@@ -171,6 +179,68 @@ fn help_in_two_lengths() {
         check(&name, &[&short, &long]);
     }
     check("help", &["", "-h", "--help", "--version", "race", "maze"]);
+}
+
+/// From nothing to a contest file that can be played, and files that cannot.
+#[test]
+fn contest_files() {
+    let other = "version = 1\n[[robots]]\npath = \"../robots\"\nauthor = \"Zo\u{eb}\"\nclass = \"c\"\n\
+                 [[robots]]\nbundled = \"flood\"\nvariants = [\"certain\"]\n[[classes]]\nname = \"c\"\n\
+                 [[mazes]]\nset = \"a\"\npaths = [\"../mazes/s*.txt\"]\nlenient = true\nweight = 3\n\
+                 [[mazes]]\nset = \"b\"\npaths = [\"gen:tree:12..=16:1..=2\"]\nhidden = true\n\
+                 [seeds]\ncount = 2\n[outputs]\nmarkdown = \"a.md\"\n";
+    let illegal = other.replace("lenient = true\n", "");
+    let twice = other.replace(
+        "[\"gen:tree:12..=16:1..=2\"]",
+        "[\"braid-12\",\n  \"../mazes/small.txt\"]\nlenient = true",
+    );
+    let named = other.replace("author", "name").replace("../robots", "..");
+    let files = [
+        ("other", other),
+        ("illegal", &illegal),
+        ("twice", &twice),
+        ("named", &named),
+        ("robotless", &other.replace("../robots", "../nothing")),
+        ("mazeless", &other.replace("s*.txt", "x*.txt")),
+        ("misspelt", &other.replace("count", "cuont")),
+        ("itself", &other.replace("a.md", "../contests/itself.toml")),
+    ];
+    let folder = folder();
+    fs::create_dir(folder.path().join("contests")).expect("a folder");
+    for (name, text) in files {
+        let path = folder.path().join(format!("contests/{name}.toml"));
+        fs::write(path, text).expect("a file");
+    }
+    check_in(
+        &folder,
+        "contest-files",
+        &[
+            "contest check",
+            "contest init spring",
+            "contest init spring",
+            "contest init --force spring",
+            "contest check spring",
+            "contest init spring/autumn.toml",
+            "contest check contests/other.toml",
+            "contest check contests/illegal.toml",
+            "contest check contests/twice.toml",
+            "contest check contests/named.toml",
+            "contest check contests/robotless.toml",
+            "contest check contests/mazeless.toml",
+            "contest check contests/misspelt.toml",
+            "contest check contests/itself.toml",
+            "contest check empty.wasm",
+        ],
+    );
+    let submissions = folder.path().join("spring/submissions");
+    assert!(submissions.is_dir());
+    fs::copy(
+        folder.path().join("ahead.wasm"),
+        submissions.join("ann.wasm"),
+    )
+    .expect("a file");
+    fs::create_dir(submissions.join("bob")).expect("a folder");
+    check_in(&folder, "contest-submissions", &["contest check spring"]);
 }
 
 #[test]

@@ -5,6 +5,8 @@
 //! signal is handled as wasmtime does. Whether stacks overflow at the same depth is tested by
 //! `recursion`, with figures that have to be the same on every processor.
 
+#![cfg(target_arch = "x86_64")]
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -102,7 +104,6 @@ fn emulator(name: &str, arguments: &[&str], program: &Path) -> Option<Command> {
 }
 
 /// Every byte is the same on the oldest processor that has the features of the target.
-#[cfg(target_arch = "x86_64")]
 #[test]
 #[ignore = "emulates another processor with qemu-x86_64, which takes minutes"]
 fn an_older_processor_gives_the_same_bytes() {
@@ -124,7 +125,6 @@ fn an_older_processor_gives_the_same_bytes() {
 }
 
 /// A processor without the features of the target is an error that says so.
-#[cfg(target_arch = "x86_64")]
 #[test]
 #[ignore = "emulates another processor with qemu-x86_64"]
 fn a_processor_without_the_baseline_is_refused() {
@@ -145,7 +145,6 @@ fn a_processor_without_the_baseline_is_refused() {
 /// Needs the program for it: `cargo build --target aarch64-unknown-linux-gnu` with
 /// `CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc`, and its path in
 /// `WASMOUSE_AARCH64`.
-#[cfg(target_arch = "x86_64")]
 #[test]
 #[ignore = "emulates aarch64, which takes minutes: set WASMOUSE_AARCH64 to a program for it"]
 fn aarch64_plays_the_same_matches() {

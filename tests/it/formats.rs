@@ -176,7 +176,7 @@ fn drawn(text: &str) -> Vec<Vec<char>> {
         .skip(1)
         .map(|line| {
             line.split(',')
-                .map(|value| value.parse().expect("a number"))
+                .map(|value| value.parse::<u8>().expect("a number"))
         })
         .map(Iterator::collect)
         .collect();

@@ -12,6 +12,8 @@ mod admitted;
 mod cache;
 /// The champion: it finishes, its proofs hold, it was not trained on test mazes.
 mod champion;
+/// Release archives, installers, workflows, and scripts for graders.
+mod ci;
 /// The command line: output, files, exit codes.
 mod cli;
 /// The rules: recorded matches and matches written by hand.
@@ -32,6 +34,8 @@ mod faults;
 mod fingerprints;
 /// Maze files: reading, round trips, and a survey counted in another way.
 mod formats;
+/// `wasmouse grade`: rubrics, robots of every kind, and all formats.
+mod grade;
 /// Robots in WebAssembly text, and a good robot that plays after them.
 mod hostile;
 /// Ctrl-C during a contest.

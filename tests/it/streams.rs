@@ -1,9 +1,14 @@
 //! Standard output and standard error in unusual states: closed, full, a terminal.
 
+#[cfg(target_os = "linux")]
 use std::fs::File;
-use std::process::{Command, Stdio};
+#[cfg(target_os = "linux")]
+use std::process::Command;
+use std::process::Stdio;
 
-use crate::binary::{path, wasmouse};
+#[cfg(target_os = "linux")]
+use crate::binary::path;
+use crate::binary::wasmouse;
 
 /// Commands that print more than a pipe holds, and some that print little.
 const PRINTING: [&[&str]; 8] = [

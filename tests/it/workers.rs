@@ -1,28 +1,39 @@
 //! Robots in worker processes: the same results as in this process, whatever happens to the
 //! workers.
 
+#[cfg(target_os = "linux")]
 use std::ffi::OsStr;
+#[cfg(unix)]
 use std::fs;
 use std::ops::ControlFlow;
+#[cfg(target_os = "linux")]
 use std::path::Path;
+#[cfg(target_os = "linux")]
 use std::process::{Command, Stdio};
 use std::sync::Arc;
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+#[cfg(target_os = "linux")]
+use std::time::Instant;
 
 use wasmouse_core::game::SandboxLimits;
-use wasmouse_core::maze::{Cell, Heading, Maze, Walls};
+use wasmouse_core::maze::Maze;
+#[cfg(target_os = "linux")]
+use wasmouse_core::maze::{Cell, Heading, Walls};
 use wasmouse_core::record::{MatchRecord, MatchSpec};
+#[cfg(target_os = "linux")]
+use wasmouse_engine::AdmittedRobot;
 use wasmouse_engine::admission::{Rejection, componentize};
 use wasmouse_engine::bundled::find;
 use wasmouse_engine::sandbox::{Executable, WorkerOptions};
 use wasmouse_engine::{
-    AdmittedRobot, Control, Executor, Frame, InProcess, InfrastructureError, Limits, Sandboxed,
+    Control, Executor, Frame, InProcess, InfrastructureError, Limits, Sandboxed,
 };
+#[cfg(target_os = "linux")]
 use wasmouse_tests::program::{Program, signal};
 
+#[cfg(target_os = "linux")]
 use crate::binary;
-
 use crate::hostile::{Engine, Module, wasm};
 use crate::matches::{WORKER, generated_mazes, rules, sandboxed, spec};
 

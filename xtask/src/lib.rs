@@ -8,12 +8,15 @@ use std::path::{Path, PathBuf};
 
 pub mod bindings;
 pub mod corpus;
+pub mod dist;
 pub mod fuzz;
 pub mod manifest;
+pub mod platforms;
 pub mod reference;
 pub mod robots;
 pub mod sources;
 pub mod step;
+pub mod validators;
 pub mod verify;
 
 /// The root folder of the repository that this program was compiled in.

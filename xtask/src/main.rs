@@ -4,7 +4,9 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use xtask::{bindings, corpus, fuzz, reference, repository, robots, verify};
+use xtask::{
+    bindings, corpus, dist, fuzz, platforms, reference, repository, robots, validators, verify,
+};
 
 /// Automation for the wasmouse repository.
 #[derive(Parser)]
@@ -45,6 +47,12 @@ enum Command {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<OsString>,
     },
+    /// Check that everything compiles without warnings for Windows and macOS.
+    CheckPlatforms,
+    /// Build the program for release and pack it with its checksum, as a release has it.
+    Dist(dist::Args),
+    /// Install the validators that tests use into target/validators: packages of Python and Node.
+    Validators,
     /// Fuzz a parser of untrusted input; without a target, list the targets.
     Fuzz {
         /// The fuzz target.
@@ -64,6 +72,9 @@ fn main() -> ExitCode {
         Command::Robots { check: true } => robots::check(&root),
         Command::Corpus { arguments } => corpus::run(&root, &arguments),
         Command::Reference { arguments } => reference::run(&root, &arguments),
+        Command::CheckPlatforms => platforms::run(&root),
+        Command::Dist(args) => dist::run(&root, &args),
+        Command::Validators => validators::run(&root),
         Command::Fuzz { target, minutes } => fuzz::run(&root, target.as_deref(), minutes),
     };
     match outcome {

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use crate::step::{Step, target_folder};
-use crate::{corpus, robots};
+use crate::{corpus, robots, validators};
 
 /// Where the tests find robots that were built from source just now.
 pub const BUILT_ROBOTS_VARIABLE: &str = "WASMOUSE_BUILT_ROBOTS";
@@ -41,6 +41,7 @@ pub fn run(root: &Path, long: bool) -> Result<(), String> {
     Step::cargo("build", root)
         .args(["build", "--workspace", "--bins", "--tests"])
         .run()?;
+    let missing = validators::install(root);
     let built = target_folder(root).join("robots");
     robots::build_all(root, &built)?;
     let (ignored, cases): (&[&str], &[OsString]) = if long {
@@ -58,6 +59,13 @@ pub fn run(root: &Path, long: bool) -> Result<(), String> {
         eprintln!(
             "note: the tests that need shared material were ignored, and are counted as ignored \
              above; set WASMOUSE_SHARED to run them"
+        );
+    }
+    if !missing.is_empty() {
+        eprintln!(
+            "note: {} validators could not be installed, and the tests that need them were \
+             skipped; each is named above",
+            missing.len()
         );
     }
     eprintln!("all checks passed");

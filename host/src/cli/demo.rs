@@ -10,14 +10,15 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::mazes::{self, BadFiles, Legality};
 use super::output::{self, Draft, Existing};
+use super::page::PageBuilder;
 use super::play::{Pace, play_all};
 use super::robots::{self, RobotSpec};
 use super::setup::SetupArgs;
+use super::terminal;
 use super::verdict::{exit, print_faults};
-use super::{page, terminal};
 use crate::contest::{
-    BestMatch, BestMatches, ContestInfo, FaultSummary, Plan, Player, RESULTS_VERSION, RecordList,
-    Results, Seeds, StandingsBuilder, SummaryBuilder, Tee,
+    BestMatch, ContestInfo, FaultSummary, Plan, Player, RESULTS_VERSION, RecordList, Results,
+    Seeds, StandingsBuilder, SummaryBuilder, Tee,
 };
 use crate::report::escape::for_terminal;
 use crate::report::paths;
@@ -66,15 +67,10 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     let mut standings = StandingsBuilder::new(&plan, &players);
     let mut summary = SummaryBuilder::new();
     let mut faults = FaultSummary::default();
-    let mut best = BestMatches::default();
+    let mut page = PageBuilder::new(&plan);
     let mut list = RecordList::new(u64::MAX);
-    let mut sink = Tee(vec![
-        &mut standings,
-        &mut summary,
-        &mut faults,
-        &mut best,
-        &mut list,
-    ]);
+    let mut sink = Tee(vec![&mut standings, &mut summary, &mut faults, &mut list]);
+    sink.0.extend(page.sinks());
     let pace = Pace {
         jobs: args.setup.jobs(),
         robot_time: None,
@@ -86,14 +82,13 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         matches: list.into_records().unwrap_or_default(),
         summary: summary.finish(&plan, standings.finish(&plan, &players)),
     };
-    let best = best.into_best();
 
     let layout = terminal::table_layout(args.ascii);
     let standings = &results.summary.standings;
     output::print(&table::standings(&results.contest, standings, layout))?;
-    print_best_run(args, &plan, &players, &results, &best)?;
+    print_best_run(args, &plan, &players, &results, page.best())?;
     print_faults(&plan, &players, &results, &faults);
-    page::write(html, &args.html, &results, &players, &best)?;
+    page.write(html, &args.html, &plan, results.summary.digest)?;
     Ok(exit(&plan, &results))
 }
 

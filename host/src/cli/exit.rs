@@ -9,7 +9,7 @@ pub enum Exit {
     /// The command did what was asked.
     Success = 0,
     /// A check failed: a maze breaks the contest rules or has no solution, a recorded result
-    /// has changed, a contest is not reproducible.
+    /// has changed, a contest is not reproducible, a robot is below the mark or a threshold.
     CheckFailed = 1,
     /// The command line is wrong (also clap's own code).
     Usage = 2,
@@ -47,7 +47,8 @@ impl Exit {
 pub const EXIT_CODES_HELP: &str = "\
 Exit codes:
     0  success
-    1  a check failed: an illegal or unsolvable maze, a changed result
+    1  a check failed: an illegal or unsolvable maze, a changed result, a robot below
+       the mark
     2  invalid command line
     3  an input file or a required tool is missing or invalid
     4  a robot was rejected or faulted

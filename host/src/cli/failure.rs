@@ -56,6 +56,11 @@ impl Failure {
         &self.message
     }
 
+    /// What to do about it, if that is known.
+    pub const fn hint_text(&self) -> Option<&Text> {
+        self.hint.as_ref()
+    }
+
     /// The exit code that goes with it.
     pub const fn exit(&self) -> Exit {
         self.exit

@@ -11,7 +11,9 @@ mod completions;
 mod contest;
 mod demo;
 mod exit;
+mod fail_under;
 mod failure;
+mod grade;
 mod input;
 mod inspect;
 mod interrupt;
@@ -62,6 +64,7 @@ struct Cli {
 enum Command {
     Demo(demo::Args),
     Run(run::Args),
+    Grade(grade::Args),
     Verify(verify::Args),
     /// Run contests that are described by a contest file
     Contest(contest::Args),
@@ -112,6 +115,7 @@ fn command() -> ExitCode {
     let outcome: Result<Exit, Failure> = match cli.command {
         Command::Demo(args) => demo::run(&args),
         Command::Run(args) => run::run(&args),
+        Command::Grade(args) => grade::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Contest(args) => contest::run(&args),
         Command::Robots(args) => robot_list::run(&args),

@@ -191,16 +191,7 @@ impl Draft {
     /// rename would destroy, or when its folder cannot be written to.
     pub fn create(path: &Path, existing: Existing) -> Result<Self, Failure> {
         let target = target(path, existing)?;
-        let mut builder = tempfile::Builder::new();
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt as _;
-            // As for any new file; without it, temporary files are private.
-            builder.permissions(fs::Permissions::from_mode(0o666));
-        }
-        let file = builder
-            .tempfile_in(folder(&target))
-            .map_err(|error| failure(path, &error))?;
+        let file = temporary_file(folder(&target)).map_err(|error| failure(path, &error))?;
         Ok(Self {
             path: path.to_owned(),
             target,
@@ -234,6 +225,19 @@ impl Write for Draft {
     fn flush(&mut self) -> io::Result<()> {
         self.file.flush()
     }
+}
+
+fn temporary_file(folder: &Path) -> io::Result<NamedTempFile> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        // As for any new file; without it, temporary files are private.
+        tempfile::Builder::new()
+            .permissions(fs::Permissions::from_mode(0o666))
+            .tempfile_in(folder)
+    }
+    #[cfg(not(unix))]
+    NamedTempFile::new_in(folder)
 }
 
 fn folder(target: &Path) -> &Path {

@@ -263,7 +263,7 @@ impl RobotSpec {
 
     /// What results call it if nothing else is called so: the given name, or the bundled name
     /// or file name without its extension, with the variant.
-    fn short_name(&self) -> String {
+    pub fn short_name(&self) -> String {
         match (&self.name, &self.source) {
             (Some(name), _) => self.with_variant(name.clone()),
             (None, Source::Bundled(robot)) => self.with_variant(robot.name.to_owned()),

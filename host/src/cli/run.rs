@@ -12,14 +12,16 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::mazes::{self, BadFiles, Legality};
 use super::output::{self, Draft, Existing, Stdout, message};
+use super::page::PageBuilder;
 use super::play::{Pace, play_all};
 use super::robots::{self, RobotSpec};
 use super::setup::{IsolationArgs, SetupArgs, TimeArgs};
 use super::verdict::{exit, print_faults};
-use super::{backtrace, interrupt, log, page, reproduce, terminal, watch};
+use super::{backtrace, fail_under, interrupt, log, reproduce, terminal, watch};
+use crate::contest::grade::Thresholds;
 use crate::contest::{
-    BestMatches, ContestInfo, FaultSummary, Plan, Player, RESULTS_VERSION, RecordList, Results,
-    Seeds, Sink, StandingsBuilder, Summary, SummaryBuilder, Tee,
+    ContestInfo, FaultSummary, MatrixBuilder, Plan, Player, RESULTS_VERSION, RecordList, Results,
+    ScoreMatrix, Seeds, Sink, StandingsBuilder, Summary, SummaryBuilder, Tee,
 };
 use crate::report::escape::for_terminal;
 use crate::report::jsonl::JsonLines;
@@ -36,11 +38,12 @@ Examples:
   wasmouse run flood dfs gen:tree:16:1..=100  two robots in 100 generated mazes
   wasmouse run random --maze test_maze_01 --repeat 20
   wasmouse run flood test_maze_01 --watch
+  wasmouse run my-robot --fail-under finished=95%,regret=12.5,faults=0
 
 Exit codes:
   0  every robot was admitted, no match ended in a fault, and at least one was
      finished
-  1  --reproduce found a difference
+  1  a robot missed a threshold of --fail-under, or --reproduce found a difference
   4  a robot was rejected or faulted; all other robots still played
   5  internal error, or a robot took too long or could not be admitted or played
      for a reason of the host; everything else was played
@@ -81,6 +84,11 @@ pub struct Args {
     /// if results differ
     #[arg(long)]
     reproduce: bool,
+    /// Fail if a robot misses one of these: KEY=VALUE, separated by commas. At least
+    /// finished=PERCENT; at most score=STEPS and regret=STEPS on average (an unfinished match
+    /// counts as the worst score), faults=MATCHES, fuel=UNITS (a step, on average)
+    #[arg(long, value_name = "LIST", value_parser = thresholds)]
+    fail_under: Option<Thresholds>,
     /// Accept mazes that break contest rules
     #[arg(long)]
     lenient: bool,
@@ -156,13 +164,15 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         args.print_tables(&plan, results)?;
     }
     print_faults(&plan, &players, results, &played.faults);
-    if let (Some(html), Some(path)) = (html, &args.html) {
-        let best = played.best.map(BestMatches::into_best).unwrap_or_default();
-        page::write(html, path, results, &players, &best)?;
+    if let (Some(html), Some(path), Some(page)) = (html, &args.html, played.page) {
+        page.write(html, path, &plan, results.summary.digest)?;
     }
-    let exit = exit(&plan, results);
+    let mut exit = exit(&plan, results);
     if exit == Exit::Interrupted {
         return Ok(exit);
+    }
+    if let (Some(thresholds), Some(matrix)) = (&args.fail_under, &played.matrix) {
+        exit = fail_under::exit(thresholds, matrix, exit);
     }
     interrupt::stop_listening();
     if !args.json {
@@ -190,7 +200,13 @@ struct Played {
     /// With matches only when there are few, or when they are needed.
     results: Results,
     faults: FaultSummary,
-    best: Option<BestMatches>,
+    page: Option<PageBuilder>,
+    /// Only when there are thresholds.
+    matrix: Option<ScoreMatrix>,
+}
+
+fn thresholds(text: &str) -> Result<Thresholds, String> {
+    text.parse()
 }
 
 impl Args {
@@ -257,7 +273,8 @@ impl Args {
         let mut standings = StandingsBuilder::new(plan, players);
         let mut summary = SummaryBuilder::new();
         let mut faults = FaultSummary::default();
-        let mut best = self.html.as_ref().map(|_| BestMatches::default());
+        let mut page = self.html.as_ref().map(|_| PageBuilder::new(plan));
+        let mut matrix = self.fail_under.as_ref().map(|_| MatrixBuilder::new(plan));
         let needs_list = self.matches || self.log || self.watch || self.reproduce;
         let mut list = RecordList::new(if needs_list { u64::MAX } else { LISTED_MAX });
         let path = self.output.as_deref().unwrap_or(Path::new(""));
@@ -277,7 +294,8 @@ impl Args {
 
         let mut sinks: Vec<&mut dyn Sink> =
             vec![&mut standings, &mut summary, &mut faults, &mut list];
-        sinks.extend(best.as_mut().map(|it| it as &mut dyn Sink));
+        sinks.extend(page.iter_mut().flat_map(PageBuilder::sinks));
+        sinks.extend(matrix.as_mut().map(|it| it as &mut dyn Sink));
         sinks.extend(file.as_mut().map(FileWriter::sink));
         sinks.extend(stdout.as_mut().map(|it| it as &mut dyn Sink));
         play_all(plan, executor, pace, &mut Tee(sinks))?;
@@ -300,7 +318,8 @@ impl Args {
         Ok(Played {
             results,
             faults,
-            best,
+            page,
+            matrix: matrix.map(MatrixBuilder::finish),
         })
     }
 

@@ -28,6 +28,11 @@ pub struct BestMatches {
 
 impl BestMatches {
     /// By player; `None` for one that has played no match.
+    pub fn best(&self) -> &[Option<BestMatch>] {
+        &self.best
+    }
+
+    /// By player; `None` for one that has played no match.
     pub fn into_best(self) -> Vec<Option<BestMatch>> {
         self.best
     }

@@ -10,6 +10,8 @@ pub mod config;
 mod difference;
 mod faults;
 mod file;
+pub mod grade;
+mod hardest;
 mod matrix;
 mod maze_source;
 mod mean;
@@ -34,6 +36,7 @@ pub use file::{
     NamesFrom, Outputs, ReportOptions, RobotSource, RobotsEntry, RulesEntry, RunOptions,
     SandboxEntry, SeedsEntry, VariantRef, template,
 };
+pub use hardest::HardestMazes;
 pub use matrix::{
     MatchScore, MatrixBuilder, MatrixFault, MatrixMaze, MatrixRobot, MazeSet, Outcome, ScoreMatrix,
 };

@@ -8,15 +8,16 @@
 pub mod bundled;
 pub mod config;
 pub mod contest_check;
+pub mod contest;
 pub mod escape;
 pub mod faults;
+pub mod grade;
 pub mod inspection;
 mod json;
 pub mod jsonl;
 pub mod maze_check;
 pub mod maze_solve;
 mod moment;
-pub mod page;
 mod paths;
 pub mod picture;
 pub mod results_json;

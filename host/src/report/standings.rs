@@ -1,4 +1,4 @@
-//! Text about standings that the table and the page share.
+//! Text about the standings of a results document.
 
 use std::collections::BTreeSet;
 

@@ -35,7 +35,7 @@ const RULED: TableStyle =
 
 /// A column, with text on the left or numbers on the right.
 #[derive(Clone, Copy)]
-enum Column {
+pub(super) enum Column {
     Text(&'static str),
     Number(&'static str),
 }
@@ -44,7 +44,7 @@ use Column::{Number, Text};
 
 /// The standings, best first, under a line that says what they are about. Ends with a newline.
 pub fn standings(contest: &ContestInfo, standings: &Standings, layout: Layout) -> String {
-    let mut table = table(
+    let mut table = new_table(
         &[
             Number("Rank"),
             Text("Robot"),
@@ -68,7 +68,7 @@ pub fn standings(contest: &ContestInfo, standings: &Standings, layout: Layout) -
         ]);
     }
     let scope = standings_text::scope(contest, standings);
-    format!("Standings ({scope})\n\n{}\n", text(table, layout.width))
+    format!("Standings ({scope})\n\n{}\n", lay_out(table, layout.width))
 }
 
 /// One line for every match, in the order of the document. Ends with a newline.
@@ -96,7 +96,7 @@ pub fn matches(
     if has_seeds {
         columns.insert(2, Number("Seed"));
     }
-    let mut table = table(&columns, layout.lines);
+    let mut table = new_table(&columns, layout.lines);
     for record in matches {
         let score = record.verdict.score();
         let oracle = names.maze(&record.key).and_then(|maze| maze.oracle);
@@ -119,10 +119,11 @@ pub fn matches(
         }
         table.add_row(row);
     }
-    text(table, layout.width) + "\n"
+    lay_out(table, layout.width) + "\n"
 }
 
-fn table(columns: &[Column], lines: Lines) -> Table {
+/// A table without rows.
+pub(super) fn new_table(columns: &[Column], lines: Lines) -> Table {
     let mut table = Table::new();
     table
         .load_style(match lines {
@@ -148,7 +149,7 @@ fn table(columns: &[Column], lines: Lines) -> Table {
 }
 
 /// The table as text, made to fit the width when it is too wide.
-fn text(mut table: Table, width: Option<u16>) -> String {
+pub(super) fn lay_out(mut table: Table, width: Option<u16>) -> String {
     let wide = table.trim_fmt();
     match width {
         Some(width) if wide.lines().any(|line| line.chars().count() > width.into()) => {

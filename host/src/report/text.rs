@@ -140,6 +140,7 @@ pub const fn assert_positional(format: &str) {
 
 #[cfg(test)]
 mod tests {
+    #[cfg(unix)]
     use super::*;
 
     #[test]

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use rusqlite::{Connection, OptionalExtension as _, params};
 use wasmouse_core::Digest;
-use wasmouse_core::game::Score;
+use wasmouse_core::game::{Ruleset, Score};
 use wasmouse_core::maze::generate::{GenSpec, GeneratedMaze};
 use wasmouse_core::maze::{Area, Cell, DIMENSIONS, Heading, Maze, Walls};
 
@@ -87,26 +87,24 @@ pub(super) fn stored_maze(
     connection: &Connection,
     digest: &Digest,
 ) -> Result<Option<StoredMaze>, StoreErrorKind> {
-    let sql = "SELECT name, walls, id FROM maze WHERE digest = ?1";
+    let sql = "SELECT name, dimension, walls, id FROM maze WHERE digest = ?1";
     let mut statement = connection.prepare_cached(sql)?;
     let row = statement.query_row(params![digest.as_bytes()], |row| {
-        Ok((row.get(0)?, row.get::<_, Option<Vec<u8>>>(1)?, row.get(2)?))
+        let maze = MazeRow {
+            name: row.get(0)?,
+            digest: *digest,
+            dimension: row.get(1)?,
+            walls: row.get(2)?,
+            oracle: None,
+        };
+        Ok((maze, row.get(3)?))
     });
-    let Some((name, walls, id)) = row.optional()? else {
+    let Some((row, id)) = row.optional()? else {
         return Ok(None);
     };
-    let maze = match walls {
-        Some(walls) => unpack(&walls),
-        None => generated_name(connection, id)?
-            .map(|name| parse_generated(&name))
-            .transpose()?
-            .map(|it| it.generate()),
-    };
-    let maze = maze.filter(|it| it.digest() == *digest).ok_or_else(|| {
-        StoreErrorKind::Damaged(format!("maze {digest}: its walls have another digest"))
-    })?;
+    let (maze, _) = row.build(connection, id)?;
     Ok(Some(StoredMaze {
-        name,
+        name: row.name,
         digest: *digest,
         maze,
     }))
@@ -114,7 +112,7 @@ pub(super) fn stored_maze(
 
 /// A name that generates the maze.
 fn generated_name(connection: &Connection, maze: i64) -> Result<Option<String>, StoreErrorKind> {
-    // The name of the maze is the one of its generator, unless it has others too.
+    // There may be several, and the one of the maze is as good as any.
     let sql = "SELECT g.name FROM generated g JOIN maze m ON m.id = g.maze \
                WHERE g.generator = ?1 AND g.name = m.name AND m.id = ?2";
     let mut statement = connection.prepare_cached(sql)?;
@@ -126,6 +124,17 @@ fn generated_name(connection: &Connection, maze: i64) -> Result<Option<String>, 
     let mut statement = connection.prepare_cached(sql)?;
     let name = statement.query_row(params![GENERATOR, maze], |row| row.get(0));
     Ok(name.optional()?)
+}
+
+/// The maze that a name generates; `None` if the store does not know the name.
+pub(super) fn generated_by(
+    connection: &Connection,
+    name: &str,
+) -> Result<Option<i64>, StoreErrorKind> {
+    let sql = "SELECT maze FROM generated WHERE generator = ?1 AND name = ?2";
+    let mut statement = connection.prepare_cached(sql)?;
+    let maze = statement.query_row(params![GENERATOR, name], |row| row.get(0));
+    Ok(maze.optional()?)
 }
 
 /// The generated maze of that name.
@@ -162,38 +171,113 @@ impl MazeRow {
 
     /// Adds the maze unless it is there, and what depends on the rules. Returns its id.
     pub fn put(&self, connection: &Connection, rules: i64) -> Result<i64, StoreErrorKind> {
-        let id = match ids::find(connection, Table::Maze, &self.digest)? {
-            Some(id) => {
-                let sql = "UPDATE maze SET name = ?2 WHERE id = ?1 AND name > ?2";
-                connection
-                    .prepare_cached(sql)?
-                    .execute(params![id, self.name])?;
-                id
-            }
-            None => {
-                let sql = "INSERT INTO maze(digest, name, dimension, walls) VALUES(?1, ?2, ?3, ?4)";
-                connection.prepare_cached(sql)?.execute(params![
-                    self.digest.as_bytes(),
-                    self.name,
-                    self.dimension,
-                    self.walls,
-                ])?;
-                connection.last_insert_rowid()
-            }
-        };
-        let sql = "INSERT INTO oracle(maze, rules, oracle_exploration, oracle_speed) \
-                   VALUES(?1, ?2, ?3, ?4) ON CONFLICT DO NOTHING";
-        connection.prepare_cached(sql)?.execute(params![
-            id,
-            rules,
-            self.oracle.map(Score::exploration_steps),
-            self.oracle.map(Score::speed_steps),
-        ])?;
+        let id = self.put_alone(connection)?;
+        let oracle = self.oracle;
+        let steps = oracle.map(|it| (it.exploration_steps(), it.speed_steps()));
+        put_oracle(connection, id, rules, steps)?;
         if self.walls.is_none() {
             put_generated(connection, &self.name, id)?;
         }
         Ok(id)
     }
+
+    /// Adds the maze unless it is there. Returns its id.
+    pub fn put_alone(&self, connection: &Connection) -> Result<i64, StoreErrorKind> {
+        if let Some(id) = ids::find(connection, Table::Maze, &self.digest)? {
+            let sql = "UPDATE maze SET name = ?2 WHERE id = ?1 AND name > ?2";
+            let mut statement = connection.prepare_cached(sql)?;
+            statement.execute(params![id, self.name])?;
+            return Ok(id);
+        }
+        let sql = "INSERT INTO maze(digest, name, dimension, walls) VALUES(?1, ?2, ?3, ?4)";
+        connection.prepare_cached(sql)?.execute(params![
+            self.digest.as_bytes(),
+            self.name,
+            self.dimension,
+            self.walls,
+        ])?;
+        Ok(connection.last_insert_rowid())
+    }
+
+    /// The maze of this row of a store, and its name if that generates it.
+    pub fn build(
+        &self,
+        connection: &Connection,
+        id: i64,
+    ) -> Result<(Maze, Option<String>), StoreErrorKind> {
+        let name = match &self.walls {
+            Some(_) => None,
+            None => generated_name(connection, id)?,
+        };
+        let maze = match (&self.walls, &name) {
+            (Some(walls), _) => unpack(walls),
+            (None, Some(name)) => Some(parse_generated(name)?.generate()),
+            (None, None) => None,
+        };
+        let maze = maze.filter(|it| it.digest() == self.digest && it.dimension() == self.dimension);
+        let maze = maze.ok_or_else(|| {
+            let problem = format!("maze {}: its walls have another digest", self.digest);
+            StoreErrorKind::Damaged(problem)
+        })?;
+        Ok((maze, name))
+    }
+}
+
+/// Adds what an oracle does in a maze.
+pub(super) fn put_oracle(
+    connection: &Connection,
+    maze: i64,
+    rules: i64,
+    steps: OracleSteps,
+) -> Result<(), StoreErrorKind> {
+    let sql = "INSERT INTO oracle(maze, rules, oracle_exploration, oracle_speed) \
+               VALUES(?1, ?2, ?3, ?4) ON CONFLICT DO NOTHING";
+    let (exploration, speed) = steps.unzip();
+    let mut statement = connection.prepare_cached(sql)?;
+    statement.execute(params![maze, rules, exploration, speed])?;
+    Ok(())
+}
+
+/// The steps of the oracle under some rules: exploration and speed.
+pub(super) type OracleSteps = Option<(u32, u32)>;
+
+/// What the store says of the oracle in a maze; `None` if it says nothing.
+pub(super) fn oracle_row(
+    connection: &Connection,
+    maze: i64,
+    rules: i64,
+) -> Result<Option<OracleSteps>, StoreErrorKind> {
+    let mut statement = connection.prepare_cached(
+        "SELECT oracle_exploration, oracle_speed FROM oracle WHERE maze = ?1 AND rules = ?2",
+    )?;
+    let row = statement.query_row([maze, rules], |row| {
+        let exploration: Option<u32> = row.get(0)?;
+        Ok(exploration.zip(row.get(1)?))
+    });
+    Ok(row.optional()?)
+}
+
+/// Fails if the store says something wrong of the oracle in a maze. Returns what it says.
+pub(super) fn check_oracle(
+    connection: &Connection,
+    digest: &Digest,
+    maze: &Maze,
+    rules_id: i64,
+    rules: &Ruleset,
+) -> Result<Option<OracleSteps>, StoreErrorKind> {
+    let Some(id) = ids::find(connection, Table::Maze, digest)? else {
+        return Ok(None);
+    };
+    let said = oracle_row(connection, id, rules_id)?;
+    if let Some(steps) = said {
+        let oracle = rules.game.oracle_score(maze);
+        let oracle = oracle.map(|it| (it.exploration_steps(), it.speed_steps()));
+        if oracle != steps {
+            let problem = format!("maze {digest}: its oracle score is wrong");
+            return Err(StoreErrorKind::Damaged(problem));
+        }
+    }
+    Ok(said)
 }
 
 /// Adds the name of a generated maze.

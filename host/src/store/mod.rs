@@ -13,17 +13,21 @@
 //! Knows nothing about output formats and prints nothing.
 
 mod columns;
+mod content;
 mod error;
 mod file;
 mod ids;
+mod integrity;
 mod keys;
 mod matrix;
 mod mazes;
+mod merge;
 mod missing;
 mod open;
 mod records;
 #[cfg(test)]
 mod sample;
+mod scan;
 mod schema;
 mod seal;
 mod sink;
@@ -35,9 +39,11 @@ mod unplayed;
 mod writer;
 
 pub use error::{StoreError, StoreErrorKind};
+pub use integrity::Integrity;
 pub use keys::MatchKeys;
 pub use matrix::MatrixRequest;
 pub use mazes::{GENERATOR, GeneratedDigests, StoredMaze};
+pub use merge::{MergeOptions, MergeReport};
 pub use missing::Missing;
 pub use open::Store;
 pub use schema::{APPLICATION_ID, SCHEMA_VERSION};

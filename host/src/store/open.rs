@@ -83,9 +83,25 @@ impl Store {
         self.file.path == other.file.path
     }
 
-    /// The connection, to read.
-    pub(super) const fn connection(&self) -> &Connection {
-        &self.connection
+    /// Whether it was opened for writing.
+    pub const fn is_writable(&self) -> bool {
+        self.lock.is_some()
+    }
+
+    /// A transaction to read in.
+    pub(super) fn reading(&self) -> Result<Transaction<'_>, StoreError> {
+        let transaction = self.connection.unchecked_transaction();
+        transaction.map_err(|error| self.error(error))
+    }
+
+    /// A transaction to write in.
+    pub(super) fn writing(&mut self) -> Result<Transaction<'_>, StoreError> {
+        if self.lock.is_none() {
+            return Err(self.error(StoreErrorKind::ReadOnly));
+        }
+        let behavior = TransactionBehavior::Immediate;
+        let transaction = self.connection.transaction_with_behavior(behavior);
+        transaction.map_err(|error| StoreErrorKind::from(error).at(&self.path))
     }
 
     /// An error with the place.
@@ -98,13 +114,8 @@ impl Store {
         &self,
         read: impl FnOnce(&Connection) -> Result<T, StoreErrorKind>,
     ) -> Result<T, StoreError> {
-        let reading = || -> Result<T, StoreErrorKind> {
-            let transaction = self.connection.unchecked_transaction()?;
-            let value = read(&transaction)?;
-            transaction.finish()?;
-            Ok(value)
-        };
-        reading().map_err(|kind| self.error(kind))
+        let transaction = self.reading()?;
+        read(&transaction).map_err(|kind| self.error(kind))
     }
 
     /// Writes in one transaction, which is on the disk when this returns.
@@ -112,20 +123,12 @@ impl Store {
         &mut self,
         write: impl FnOnce(&Transaction<'_>) -> Result<T, StoreErrorKind>,
     ) -> Result<T, StoreError> {
-        let Self {
-            connection, lock, ..
-        } = self;
-        let writing = || {
-            if lock.is_none() {
-                return Err(StoreErrorKind::ReadOnly);
-            }
-            let behavior = TransactionBehavior::Immediate;
-            let transaction = connection.transaction_with_behavior(behavior)?;
-            let value = write(&transaction)?;
-            transaction.commit()?;
-            Ok(value)
-        };
-        writing().map_err(|kind| kind.at(&self.path))
+        let path = self.path.clone();
+        let transaction = self.writing()?;
+        let value = write(&transaction).map_err(|kind| kind.at(&path))?;
+        let committed = transaction.commit();
+        committed.map_err(|error| StoreErrorKind::from(error).at(path))?;
+        Ok(value)
     }
 }
 

@@ -69,18 +69,18 @@ impl<'s> StoreSink<'s> {
     ///
     /// # Errors
     ///
-    /// When the store cannot be written.
+    /// When the store was opened for reading only.
     pub fn new(
         store: &'s mut Store,
         engine: EngineId,
         rules: Ruleset,
         kept: KeptTranscripts,
     ) -> Result<Self, StoreError> {
-        store.write(|transaction| {
-            ids::engine(transaction, &engine)?;
-            ids::rules(transaction, &rules)?;
-            unseal(transaction)
-        })?;
+        // Nothing is written before there is something to write, so that a finished contest stays
+        // sealed when it is run again.
+        if !store.is_writable() {
+            return Err(store.error(StoreErrorKind::ReadOnly));
+        }
         Ok(Self {
             engine_digest: engine.digest(),
             rules_digest: rules.digest(),

@@ -57,7 +57,7 @@ impl Store {
     ///
     /// When the store cannot be read.
     pub fn submissions(&self) -> Result<Vec<Submission>, StoreError> {
-        self.read(|connection| all(connection))
+        self.read(all)
     }
 
     /// The last submission of each name, in the order in which the names came.

@@ -2,7 +2,7 @@
 
 use std::cmp::Reverse;
 
-use rusqlite::{Connection, OptionalExtension as _, params};
+use rusqlite::{Connection, params};
 use wasmouse_core::Digest;
 use wasmouse_core::game::{Ruleset, Score, Verdict};
 use wasmouse_core::record::{MatchKey, MatchRecord, Transcript};
@@ -188,24 +188,4 @@ pub(super) fn put(
         at.engine, at.rules, at.robot, at.variant, at.maze, at.seed, is_best, bytes,
     ])?;
     Ok(rows > 0)
-}
-
-/// The steps of a robot that knows the maze; `None` if the goal cannot be reached or they are not
-/// known.
-pub(super) fn oracle(
-    connection: &Connection,
-    maze: i64,
-    rules_id: i64,
-    rules: &Ruleset,
-) -> Result<Option<Score>, StoreErrorKind> {
-    let mut statement = connection.prepare_cached(
-        "SELECT oracle_speed, oracle_exploration FROM oracle WHERE maze = ?1 AND rules = ?2",
-    )?;
-    let row = statement.query_row([maze, rules_id], |row| {
-        Ok((row.get::<_, Option<u32>>(0)?, row.get::<_, Option<u32>>(1)?))
-    });
-    let Some((Some(speed), Some(exploration))) = row.optional()? else {
-        return Ok(None);
-    };
-    Ok(Some(rules.game.score(speed, exploration)))
 }

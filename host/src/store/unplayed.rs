@@ -103,6 +103,17 @@ pub(super) fn each(
     Ok(())
 }
 
+/// The beginning of a statement that adds an unplayed match, unless it was played.
+macro_rules! insert {
+    () => {
+        "INSERT INTO unplayed(engine, rules, robot, variant, maze, seed, cause, reason) \
+         SELECT ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8 WHERE NOT EXISTS(SELECT 1 FROM match \
+         WHERE engine = ?1 AND rules = ?2 AND robot = ?3 AND variant = ?4 AND maze = ?5 \
+         AND seed = ?6) \
+         ON CONFLICT DO UPDATE SET cause = excluded.cause, reason = excluded.reason"
+    };
+}
+
 /// Records that a match was not played, unless it was. The last reason counts.
 pub(super) fn put(
     connection: &Connection,
@@ -110,13 +121,31 @@ pub(super) fn put(
     cause: Cause,
     reason: &str,
 ) -> Result<(), StoreErrorKind> {
-    let mut statement = connection.prepare_cached(
-        "INSERT INTO unplayed(engine, rules, robot, variant, maze, seed, cause, reason) \
-         SELECT ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8 WHERE NOT EXISTS(SELECT 1 FROM match \
-         WHERE engine = ?1 AND rules = ?2 AND robot = ?3 AND variant = ?4 AND maze = ?5 \
-         AND seed = ?6) \
-         ON CONFLICT DO UPDATE SET cause = excluded.cause, reason = excluded.reason",
-    )?;
+    execute(connection, insert!(), at, cause, reason)
+}
+
+/// Like [`put`], but the least reason counts, so that the order does not matter.
+pub(super) fn put_least(
+    connection: &Connection,
+    at: &Address,
+    cause: Cause,
+    reason: &str,
+) -> Result<(), StoreErrorKind> {
+    const SQL: &str = concat!(
+        insert!(),
+        " WHERE (excluded.cause, excluded.reason) < (cause, reason)"
+    );
+    execute(connection, SQL, at, cause, reason)
+}
+
+fn execute(
+    connection: &Connection,
+    sql: &str,
+    at: &Address,
+    cause: Cause,
+    reason: &str,
+) -> Result<(), StoreErrorKind> {
+    let mut statement = connection.prepare_cached(sql)?;
     statement.execute(params![
         at.engine,
         at.rules,

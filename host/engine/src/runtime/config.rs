@@ -127,8 +127,8 @@ fn compiler_config(limits: &Limits) -> Config {
     config.generate_address_map(false);
     // Said, because otherwise an environment variable decides.
     config.wasm_backtrace_details(WasmBacktraceDetails::Disable);
-    // Only needed by native profilers and unwinders.
-    config.native_unwind_info(false);
+    // Only needed by native profilers and unwinders, and on Windows, where the system itself is one.
+    config.native_unwind_info(cfg!(windows));
     config
 }
 

@@ -101,11 +101,10 @@ impl Target {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, target_arch = "x86_64"))]
 mod tests {
     use super::*;
 
-    #[cfg(target_arch = "x86_64")]
     #[test]
     fn the_feature_that_is_missing_is_named() {
         let features = [("SSE3", true), ("AVX512", false)];

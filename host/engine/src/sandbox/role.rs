@@ -58,11 +58,18 @@ pub struct SandboxStatus {
     pub empty_root: bool,
     /// No capabilities in any set.
     pub no_capabilities: bool,
-    /// A control group of its own, which limits memory and processes.
+    /// A control group of its own, or on Windows a job object, which limits memory and processes.
     pub control_group: bool,
 }
 
 impl SandboxStatus {
+    /// What limits a worker as a whole on this system.
+    const GROUP: &str = if cfg!(windows) {
+        "job object"
+    } else {
+        "control group"
+    };
+
     /// Whether the two layers are there that every supported kernel gives to every user. The
     /// others depend on how the system is set up (in containers, most are not to be had), and
     /// what they forbid, these two forbid as well.
@@ -88,7 +95,7 @@ impl SandboxStatus {
             ("namespaces", self.namespaces),
             ("empty root", self.empty_root),
             ("no capabilities", self.no_capabilities),
-            ("control group", self.control_group),
+            (Self::GROUP, self.control_group),
         ]
     }
 }

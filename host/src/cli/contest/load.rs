@@ -7,7 +7,7 @@ use super::super::input;
 use crate::contest::ContestFile;
 use crate::contest::config::{BYTES_MAX, ConfigError, Document, FilePath, decode};
 use crate::report::config::config_error;
-use crate::report::text::{Printable, Text};
+use crate::report::text::{Printable, Text, text};
 
 /// The name of the contest file in a folder that is given instead of it.
 pub const FILE_NAME: &str = "contest.toml";
@@ -43,7 +43,26 @@ impl ContestFolder {
         let parsed = decode(&bytes).and_then(|text| Ok((ContestFile::parse(text)?, text)));
         let (file, text) = parsed.map_err(|error| failure(&path, &error))?;
         let text = text.to_owned();
-        Ok(Self { file, path, text })
+        let contest = Self { file, path, text };
+        contest.check_written()?;
+        Ok(contest)
+    }
+
+    /// Checks that nothing that is written takes the place of the contest file.
+    fn check_written(&self) -> Result<(), Failure> {
+        let itself = self.path.canonicalize().ok();
+        let outputs = self.outputs().into_iter();
+        let outputs = outputs.map(|(key, path)| (format!("outputs.{key}"), path));
+        let store = ("store".to_owned(), self.store());
+        for (key, path) in outputs.chain([store]) {
+            let is_itself = itself.is_some() && path.canonicalize().ok() == itself;
+            if path == self.path || is_itself {
+                let message = text!("`{}`: `{}` is the contest file", key, Text::of_path(&path));
+                let failure = self.failure_at(&key, message);
+                return Err(failure.hint("give it another name"));
+            }
+        }
+        Ok(())
     }
 
     /// The path of the contest file.

@@ -84,7 +84,15 @@ impl<'a> Document<'a> {
         T::deserialize(Deserializer::from(self.root.clone())).map_err(|error| {
             let span = error.span().unwrap_or(0..0);
             let key = key_at(self.root.get_ref(), &span);
-            let (message, hint) = explain(error.message(), &key);
+            let (mut message, hint) = explain(error.message(), &key);
+            // For serde, a date is a table of a secret kind. No other value begins with a digit and
+            // is called a table.
+            let value = self.text.get(span.clone()).unwrap_or_default();
+            if value.starts_with(|it: char| it.is_ascii_digit())
+                && let Some(start) = message.strip_suffix("found a table")
+            {
+                message = format!("{start}found a date or a time");
+            }
             let error = ConfigError::new(self.text, span, key, message);
             ConfigError { hint, ..error }
         })

@@ -49,6 +49,7 @@ impl<const MIN: u64, const MAX: u64> Visitor<'_> for IntegerVisitor<MIN, MAX> {
         match (MIN, MAX) {
             (0, u64::MAX) => write!(f, "an integer below 2^64"),
             (_, u64::MAX) => write!(f, "an integer of at least {MIN}"),
+            _ if MIN == MAX => write!(f, "the integer {MIN}"),
             _ => write!(f, "an integer from {MIN} to {MAX}"),
         }
     }

@@ -1,6 +1,7 @@
 //! What has to hold between the values of a contest file.
 
 use std::collections::HashMap;
+use std::path::{Component, Path, PathBuf};
 
 use serde::Deserialize;
 use toml::Value;
@@ -8,15 +9,16 @@ use wasmouse_core::game::Ruleset;
 use wasmouse_core::maze::generate::GenSpec;
 use wasmouse_engine::bundled::bundled;
 
-use super::super::config::{ConfigError, Document, suggestion};
-use super::contest_file::{CONTEST_FILE_VERSION, ContestFile};
+use super::super::config::{ConfigError, Document, FilePath, Name, suggestion};
+use super::contest_file::ContestFile;
+use super::options::SeedsEntry;
 use super::robots::{RobotSource, RobotsEntry, VariantRef};
-use super::rules::{GameEntry, SandboxEntry};
+use super::rules::{GameEntry, RulesEntry, SandboxEntry};
 
 type Checked = Result<(), ConfigError>;
 
 /// Checks the version before anything else: the keys of another one may be others.
-pub(super) fn version(document: &Document<'_>) -> Checked {
+pub(in crate::contest) fn version(document: &Document<'_>, supported: u64) -> Checked {
     #[derive(Deserialize)]
     struct OnlyVersion {
         version: Option<Value>,
@@ -26,14 +28,14 @@ pub(super) fn version(document: &Document<'_>) -> Checked {
             let error = document.error("", "missing key `version`");
             return Err(error.hint("begin the file with `version = 1`"));
         }
-        Some(Value::Integer(number)) if u64::try_from(number) == Ok(CONTEST_FILE_VERSION) => {
+        Some(Value::Integer(number)) if u64::try_from(number) == Ok(supported) => {
             return Ok(());
         }
         Some(Value::Integer(number)) => number,
         // The value's type says more.
         Some(_) => return Ok(()),
     };
-    let message = format!("version {found}; only version {CONTEST_FILE_VERSION} is supported");
+    let message = format!("version {found}; only version {supported} is supported");
     let error = document.error("version", message);
     Err(error.hint("use the wasmouse that the file was written for"))
 }
@@ -43,8 +45,8 @@ pub(super) fn check(file: &ContestFile, document: &Document<'_>) -> Checked {
     classes(file, document)?;
     robots(file, document)?;
     mazes(file, document)?;
-    seeds(file, document)?;
-    rules(file, document)?;
+    seeds(&file.seeds, document)?;
+    rules(&file.rules, document)?;
     scoring(file, document)?;
     outputs(file, document)
 }
@@ -91,16 +93,7 @@ fn robots(file: &ContestFile, document: &Document<'_>) -> Checked {
         if let Some(name) = &entry.name {
             names.note("name", name.as_str(), &format!("{key}.name"), document)?;
         }
-        if let Some(class) = &entry.class {
-            let mut classes = file.classes.iter().map(|it| it.name.as_str());
-            if !classes.clone().any(|it| it == class.as_str()) {
-                let message = format!("`{key}.class`: there is no class `{}`", class.as_str());
-                let hint = suggestion(class.as_str(), classes.by_ref())
-                    .unwrap_or_else(|| "add `[[classes]]` with this `name`".to_owned());
-                let error = document.error(&format!("{key}.class"), message);
-                return Err(error.hint(hint));
-            }
-        }
+        class(entry, &key, file, document)?;
         let (field, given) = match source {
             RobotSource::Path(path) => ("path", path.as_str()),
             RobotSource::Bundled(robot) => ("bundled", robot.name),
@@ -119,6 +112,22 @@ fn robots(file: &ContestFile, document: &Document<'_>) -> Checked {
         }
     }
     Ok(())
+}
+
+/// Checks that the class of an entry exists.
+fn class(entry: &RobotsEntry, key: &str, file: &ContestFile, document: &Document<'_>) -> Checked {
+    let Some(class) = entry.class.as_ref().map(Name::as_str) else {
+        return Ok(());
+    };
+    let mut classes = file.classes.iter().map(|it| it.name.as_str());
+    if classes.clone().any(|it| it == class) {
+        return Ok(());
+    }
+    let hint = suggestion(class, classes.by_ref())
+        .unwrap_or_else(|| "add `[[classes]]` with this `name`".to_owned());
+    let key = format!("{key}.class");
+    let error = document.error(&key, format!("`{key}`: there is no class `{class}`"));
+    Err(error.hint(hint))
 }
 
 /// Where the robots of an entry are, if it says so once and has no keys that contradict it.
@@ -222,7 +231,8 @@ fn mazes(file: &ContestFile, document: &Document<'_>) -> Checked {
         for (index, path) in entry.paths.iter().enumerate() {
             let key = format!("{key}.paths[{index}]");
             let text = path.as_str();
-            paths.note("maze", text, &key, document)?;
+            let plain = plain(path);
+            paths.note("maze", &plain, &key, document)?;
             if text == "-" {
                 let message = format!("`{key}`: a contest cannot read standard input");
                 let error = document.error(&key, message);
@@ -238,8 +248,9 @@ fn mazes(file: &ContestFile, document: &Document<'_>) -> Checked {
     Ok(())
 }
 
-fn seeds(file: &ContestFile, document: &Document<'_>) -> Checked {
-    let (first, count) = (file.seeds.first.get(), file.seeds.count.get());
+/// Checks the seeds of any configuration file.
+pub(in crate::contest) fn seeds(seeds: &SeedsEntry, document: &Document<'_>) -> Checked {
+    let (first, count) = (seeds.first.get(), seeds.count.get());
     match first.checked_add(count - 1) {
         Some(_) => Ok(()),
         None => {
@@ -251,8 +262,8 @@ fn seeds(file: &ContestFile, document: &Document<'_>) -> Checked {
     }
 }
 
-fn rules(file: &ContestFile, document: &Document<'_>) -> Checked {
-    let rules = &file.rules;
+/// Checks the rules of any configuration file.
+pub(in crate::contest) fn rules(rules: &RulesEntry, document: &Document<'_>) -> Checked {
     let bundled = Ruleset::all().map(|it| it.name);
     let names = bundled.iter().map(String::as_str);
     if let Some(base) = &rules.base
@@ -303,10 +314,17 @@ fn scoring(file: &ContestFile, document: &Document<'_>) -> Checked {
 fn outputs(file: &ContestFile, document: &Document<'_>) -> Checked {
     let mut paths = Seen::default();
     if let Some(store) = &file.store {
-        paths.note("file", store.as_str(), "store", document)?;
+        paths.note("file", &plain(store), "store", document)?;
     }
     for (key, path) in file.outputs.paths() {
-        paths.note("file", path.as_str(), &format!("outputs.{key}"), document)?;
+        paths.note("file", &plain(path), &format!("outputs.{key}"), document)?;
     }
     Ok(())
+}
+
+/// A path without the parts that mean nothing, such as `./`.
+fn plain(path: &FilePath) -> String {
+    let parts = Path::new(path.as_str()).components();
+    let parts: PathBuf = parts.filter(|it| *it != Component::CurDir).collect();
+    parts.to_string_lossy().into_owned()
 }

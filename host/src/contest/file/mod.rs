@@ -4,7 +4,7 @@
 //! `cli::contest::resolve` finds those. `docs/CONTEST.md` is the reference of the format and
 //! `host/schema/contest.schema.json` its JSON Schema; tests keep both in agreement with the parser.
 
-mod check;
+pub(in crate::contest) mod check;
 mod contest_file;
 mod mazes;
 mod options;

@@ -2,7 +2,7 @@
 
 use super::super::config::{ConfigError, Document};
 use super::check;
-use super::contest_file::ContestFile;
+use super::contest_file::{CONTEST_FILE_VERSION, ContestFile};
 
 impl ContestFile {
     /// Reads a contest file.
@@ -27,7 +27,7 @@ impl ContestFile {
     /// With the first thing that is wrong.
     pub fn parse(text: &str) -> Result<Self, ConfigError> {
         let document = Document::parse(text)?;
-        check::version(&document)?;
+        check::version(&document, CONTEST_FILE_VERSION)?;
         let file = document.read()?;
         check::check(&file, &document)?;
         Ok(file)

@@ -55,6 +55,7 @@ pub struct Picture {
     walls: Vec<[Wall; 2]>,
     pub(super) marks: Vec<Mark>,
     pub(super) stops: Vec<Cell>,
+    pub(super) optimum: Vec<Cell>,
     pub(super) robot: Option<(Cell, Heading)>,
 }
 
@@ -87,6 +88,7 @@ impl Picture {
             walls: vec![[Wall::Unknown; 2]; cells],
             marks: vec![Mark::default(); cells],
             stops: Vec::new(),
+            optimum: Vec::new(),
             robot: None,
         }
     }
@@ -119,6 +121,13 @@ impl Picture {
     pub fn set_stops(&mut self, stops: &[Cell]) {
         let inside = |cell: &Cell| self.index(*cell).is_some();
         self.stops = stops.iter().copied().filter(inside).collect();
+    }
+
+    /// Draws an optimal path behind the other one. Only SVG shows it: text has one character for a
+    /// place on a path.
+    pub fn set_optimum(&mut self, path: &Path) {
+        let inside = |cell: &Cell| self.index(*cell).is_some();
+        self.optimum = path.stops().iter().copied().filter(inside).collect();
     }
 
     /// Writes its distance into every cell that has one.

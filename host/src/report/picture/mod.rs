@@ -15,4 +15,5 @@ mod text;
 pub use drawing::{Mark, Picture, Wall};
 pub use label::{LABEL_CHARS_MAX, Label};
 pub use paint::Paint;
+pub use svg::SVG_STYLE;
 pub use text::{Charset, TextStyle};

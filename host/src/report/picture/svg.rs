@@ -5,6 +5,7 @@
 //! and a description stand for the picture where it cannot be seen, and start,
 //! goal and painted cells carry their names as tooltips.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use wasmouse_core::maze::{Cell, Heading};
@@ -18,32 +19,50 @@ const CELL: u32 = 20;
 const MARGIN: u32 = 6;
 
 /// Levels of heat above cold.
-const HEAT_LEVELS: u32 = 100;
+const HEAT_LEVELS: u32 = 20;
 
-const STYLE: &str = "\
-.ground{fill:#fff}.start{fill:#3e7bfa;fill-opacity:.3}.goal{fill:#30a46c;fill-opacity:.3}
-.heat{fill:#e5484d}
-.wall{fill:none;stroke:#1b1c20;stroke-width:2;stroke-linecap:round}
-.unknown{fill:none;stroke:#8b8d98;stroke-width:2;stroke-linecap:round;stroke-dasharray:0 5}
-.dot{fill:#8b8d98}
-.path{fill:none;stroke:#3e7bfa;stroke-width:3;stroke-linejoin:round;stroke-linecap:round}
-.stop{fill:#3e7bfa}
-.robot{fill:#d6409f;stroke:#fff;stroke-width:1}
-text{font-family:ui-sans-serif,system-ui,sans-serif;text-anchor:middle;fill:#1b1c20}
-.on-path{paint-order:stroke;stroke:#fff;stroke-width:2;stroke-linejoin:round}
-@media (prefers-color-scheme:dark){.ground{fill:#16171b}.wall{stroke:#e8e8ec}
-text{fill:#f2f2f5}.on-path,.robot{stroke:#16171b}}";
+/// The style sheet of all pictures. A page that [embeds](Picture::to_svg_element) some needs it
+/// once; its classes begin with `maze-`, so that they are of no concern to the rest of the page.
+pub const SVG_STYLE: &str = "\
+.maze-ground{fill:#fff}.maze-start{fill:#3e7bfa;fill-opacity:.3}
+.maze-goal{fill:#30a46c;fill-opacity:.3}
+.maze-heat{fill:none;stroke:#e5484d;stroke-width:20}
+.maze-wall{fill:none;stroke:#1b1c20;stroke-width:2;stroke-linecap:round}
+.maze-unknown{fill:none;stroke:#8b8d98;stroke-width:2;stroke-linecap:round;stroke-dasharray:0 5}
+.maze-dot{fill:#8b8d98}
+.maze-path{fill:none;stroke:#3e7bfa;stroke-width:3;stroke-linejoin:round;stroke-linecap:round}
+.maze-stop{fill:none;stroke:#3e7bfa;stroke-width:9;stroke-linecap:round}
+.maze-optimum{fill:none;stroke:#218358;stroke-width:7;stroke-linejoin:round;stroke-opacity:.55}
+.maze-robot{fill:#d6409f;stroke:#fff;stroke-width:1}
+.maze-text{font-family:ui-sans-serif,system-ui,sans-serif;text-anchor:middle;fill:#1b1c20}
+.maze-on-path{stroke:#fff;stroke-width:2;stroke-linejoin:round}
+@media screen and (prefers-color-scheme:dark){.maze-ground{fill:#16171b}.maze-wall{stroke:#e8e8ec}
+.maze-optimum{stroke:#3dd68c}.maze-text{fill:#f2f2f5}.maze-on-path,.maze-robot{stroke:#16171b}}";
 
 impl Picture {
     /// The picture as an SVG document with a line feed at its end.
     pub fn to_svg(&self) -> String {
+        self.svg(
+            " xmlns=\"http://www.w3.org/2000/svg\"",
+            &format!("<style>{SVG_STYLE}</style>\n"),
+        )
+    }
+
+    /// The picture as an element of an HTML page that has [`SVG_STYLE`].
+    pub fn to_svg_element(&self) -> String {
+        self.svg("", "")
+    }
+
+    fn svg(&self, namespace: &str, style: &str) -> String {
         let mut svg = String::new();
-        self.head(&mut svg);
+        self.head(namespace, style, &mut svg);
+        self.heat(&mut svg);
         self.grounds(&mut svg);
         self.walls_of(Wall::Unknown, "unknown", &mut svg);
         self.dots(&mut svg);
         self.walls_of(Wall::Closed, "wall", &mut svg);
         self.perimeter(&mut svg);
+        self.optimum_line(&mut svg);
         self.path_line(&mut svg);
         self.texts(&mut svg);
         self.robot_shape(&mut svg);
@@ -51,7 +70,7 @@ impl Picture {
         svg
     }
 
-    fn head(&self, svg: &mut String) {
+    fn head(&self, namespace: &str, style: &str, svg: &mut String) {
         let side = u32::from(self.dimension) * CELL + 2 * MARGIN;
         // How large it is shown where nobody says otherwise.
         let shown = 2 * side;
@@ -60,31 +79,47 @@ impl Picture {
         write(
             svg,
             format_args!(
-                "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {side} {side}\" \
+                "<svg{namespace} viewBox=\"0 0 {side} {side}\" \
                  width=\"{shown}\" height=\"{shown}\" role=\"img\">\n\
                  <title>{title}</title>\n<desc>{description}</desc>\n\
-                 <style>{STYLE}</style>\n\
-                 <rect class=\"ground\" width=\"{side}\" height=\"{side}\"/>\n"
+                 {style}<rect class=\"maze-ground\" width=\"{side}\" height=\"{side}\"/>\n"
             ),
         );
     }
 
-    /// What fills cells: start, goal, heat and paint.
+    /// The heat of cells: for each level one path, because a page can have many pictures.
+    fn heat(&self, svg: &mut String) {
+        let mut levels: BTreeMap<u32, String> = BTreeMap::new();
+        for cell in cells(self.dimension) {
+            if let Some(level @ 1..) = self.heat_level(cell, HEAT_LEVELS) {
+                let ((x, _), (_, y)) = (self.corner(cell), self.middle(cell));
+                let lines = levels.entry(level).or_default();
+                write(lines, format_args!("M{x} {y}h{CELL}"));
+            }
+        }
+        for (level, lines) in levels {
+            // Never so strong that a number on it would be hard to read.
+            let share = level * 70 / HEAT_LEVELS;
+            let look = format_args!("class=\"maze-heat\" stroke-opacity=\".{share:02}\"");
+            write(svg, format_args!("<path {look} d=\"{lines}\"/>\n"));
+        }
+    }
+
+    /// What fills cells: start, goal and paint.
     fn grounds(&self, svg: &mut String) {
         for cell in cells(self.dimension) {
             let Mark { paint, .. } = self.mark(cell);
-            let heat = self.heat_level(cell, HEAT_LEVELS);
             if cell == self.start {
-                square(svg, cell, self, format_args!("class=\"start\""), "start");
+                square(
+                    svg,
+                    cell,
+                    self,
+                    format_args!("class=\"maze-start\""),
+                    "start",
+                );
             }
             if self.goal.contains(cell) {
-                square(svg, cell, self, format_args!("class=\"goal\""), "goal");
-            }
-            if let Some(level @ 1..) = heat {
-                // Never so strong that a number on it would be hard to read.
-                let share = level * 7 / 10;
-                let look = format_args!("class=\"heat\" fill-opacity=\".{share:02}\"");
-                square(svg, cell, self, look, "");
+                square(svg, cell, self, format_args!("class=\"maze-goal\""), "goal");
             }
             if let Some(paint) = paint {
                 let (hex, name) = (paint.hex(), paint.name());
@@ -95,25 +130,55 @@ impl Picture {
     }
 
     fn walls_of(&self, kind: Wall, class: &str, svg: &mut String) {
+        let n = self.dimension;
         let mut lines = String::new();
-        for cell in cells(self.dimension) {
-            let (x, y) = self.corner(cell);
-            if self.wall_place(cell, Heading::Up).is_some() && self.wall(cell, Heading::Up) == kind
-            {
-                write(&mut lines, format_args!("M{x} {y}h{CELL}"));
+        // Walls in a straight line are drawn as one.
+        for y in 0..n {
+            let run = (0..n).map(|x| Cell::new(x, y));
+            for (first, count) in self.wall_runs(run, Heading::Up, kind) {
+                let (x, y) = self.corner(first);
+                write(&mut lines, format_args!("M{x} {y}h{}", count * CELL));
             }
-            if self.wall_place(cell, Heading::Right).is_some()
-                && self.wall(cell, Heading::Right) == kind
-            {
-                write(&mut lines, format_args!("M{} {y}v{CELL}", x + CELL));
+        }
+        for x in 0..n {
+            // From the top, because `y` grows downward in SVG.
+            let run = (0..n).rev().map(|y| Cell::new(x, y));
+            for (first, count) in self.wall_runs(run, Heading::Right, kind) {
+                let (x, y) = self.corner(first);
+                write(
+                    &mut lines,
+                    format_args!("M{} {y}v{}", x + CELL, count * CELL),
+                );
             }
         }
         if !lines.is_empty() {
             write(
                 svg,
-                format_args!("<path class=\"{class}\" d=\"{lines}\"/>\n"),
+                format_args!("<path class=\"maze-{class}\" d=\"{lines}\"/>\n"),
             );
         }
+    }
+
+    /// Neighbours of a row or column with such a wall on that side, as the first of them and their
+    /// number.
+    fn wall_runs(
+        &self,
+        cells: impl Iterator<Item = Cell>,
+        side: Heading,
+        kind: Wall,
+    ) -> Vec<(Cell, u32)> {
+        let mut runs: Vec<(Cell, u32)> = Vec::new();
+        let mut is_running = false;
+        for cell in cells {
+            let has_wall = self.wall_place(cell, side).is_some() && self.wall(cell, side) == kind;
+            match runs.last_mut() {
+                Some((_, count)) if has_wall && is_running => *count += 1,
+                _ if has_wall => runs.push((cell, 1)),
+                _ => {}
+            }
+            is_running = has_wall;
+        }
+        runs
     }
 
     fn perimeter(&self, svg: &mut String) {
@@ -122,7 +187,7 @@ impl Picture {
         write(
             svg,
             format_args!(
-                "<rect class=\"wall\" x=\"{corner}\" y=\"{corner}\" width=\"{side}\" \
+                "<rect class=\"maze-wall\" x=\"{corner}\" y=\"{corner}\" width=\"{side}\" \
                  height=\"{side}\"/>\n"
             ),
         );
@@ -133,7 +198,7 @@ impl Picture {
             let (x, y) = self.middle(cell);
             write(
                 svg,
-                format_args!("<circle class=\"dot\" cx=\"{x}\" cy=\"{y}\" r=\"1\"/>\n"),
+                format_args!("<circle class=\"maze-dot\" cx=\"{x}\" cy=\"{y}\" r=\"1\"/>\n"),
             );
         }
     }
@@ -142,19 +207,37 @@ impl Picture {
         if self.stops.len() < 2 {
             return;
         }
-        let middles = self.stops.iter().map(|&stop| self.middle(stop));
-        let points: Vec<String> = middles.clone().map(|(x, y)| format!("{x},{y}")).collect();
-        let points = points.join(" ");
         write(
             svg,
-            format_args!("<polyline class=\"path\" points=\"{points}\"/>\n"),
+            format_args!(
+                "<polyline class=\"maze-path\" points=\"{}\"/>\n",
+                self.points(&self.stops)
+            ),
         );
-        for (x, y) in middles {
+        let mut dots = String::new();
+        for (x, y) in self.stops.iter().map(|&stop| self.middle(stop)) {
+            write(&mut dots, format_args!("M{x} {y}h0"));
+        }
+        write(
+            svg,
+            format_args!("<path class=\"maze-stop\" d=\"{dots}\"/>\n"),
+        );
+    }
+
+    fn optimum_line(&self, svg: &mut String) {
+        if self.optimum.len() > 1 {
+            let points = self.points(&self.optimum);
             write(
                 svg,
-                format_args!("<circle class=\"stop\" cx=\"{x}\" cy=\"{y}\" r=\"4.5\"/>\n"),
+                format_args!("<polyline class=\"maze-optimum\" points=\"{points}\"/>\n"),
             );
         }
+    }
+
+    fn points(&self, stops: &[Cell]) -> String {
+        let middles = stops.iter().map(|&stop| self.middle(stop));
+        let points: Vec<String> = middles.map(|(x, y)| format!("{x},{y}")).collect();
+        points.join(" ")
     }
 
     fn texts(&self, svg: &mut String) {
@@ -185,12 +268,12 @@ impl Picture {
         let class = if self.stops.is_empty() {
             ""
         } else {
-            " class=\"on-path\""
+            " maze-on-path\" paint-order=\"stroke"
         };
         write(
             svg,
             format_args!(
-                "<text{class} x=\"{x}\" y=\"{}.{}\" font-size=\"{}.{}\">{}</text>\n",
+                "<text class=\"maze-text{class}\" x=\"{x}\" y=\"{}.{}\" font-size=\"{}.{}\">{}</text>\n",
                 baseline / 10,
                 baseline % 10,
                 size / 10,
@@ -210,7 +293,7 @@ impl Picture {
         write(
             svg,
             format_args!(
-                "<path class=\"robot\" d=\"M0 -8L6 6L0 3L-6 6Z\" \
+                "<path class=\"maze-robot\" d=\"M0 -8L6 6L0 3L-6 6Z\" \
                  transform=\"translate({x} {y}) rotate({degrees})\"/>\n"
             ),
         );
@@ -228,7 +311,7 @@ impl Picture {
     }
 }
 
-/// A coloured cell, with a tooltip unless that is empty.
+/// A coloured cell with a tooltip.
 fn square(
     svg: &mut String,
     cell: Cell,
@@ -238,14 +321,10 @@ fn square(
 ) {
     let (x, y) = picture.corner(cell);
     let place = format!("x=\"{x}\" y=\"{y}\" width=\"{CELL}\" height=\"{CELL}\"");
-    if tooltip.is_empty() {
-        write(svg, format_args!("<rect {look} {place}/>\n"));
-    } else {
-        write(
-            svg,
-            format_args!("<rect {look} {place}><title>{tooltip}</title></rect>\n"),
-        );
-    }
+    write(
+        svg,
+        format_args!("<rect {look} {place}><title>{tooltip}</title></rect>\n"),
+    );
 }
 
 fn write(text: &mut String, part: std::fmt::Arguments<'_>) {

@@ -297,7 +297,7 @@ fn what_lies_outside_is_ignored() {
     picture.set_stops(&outside);
     assert_eq!(picture.to_text(TextStyle::UNICODE), before);
     picture.set_robot(Cell::new(9, 9), Heading::Up);
-    assert!(!picture.to_svg().contains("class=\"robot\""));
+    assert!(!picture.to_svg().contains("class=\"maze-robot\""));
 }
 
 #[test]
@@ -325,5 +325,5 @@ fn extreme_numbers_are_drawn() {
         mark.number = Some(u32::MAX);
     }
     assert!(picture.to_text(TextStyle::UNICODE).contains("4294967295"));
-    assert!(picture.to_svg().contains("fill-opacity=\".70\""));
+    assert!(picture.to_svg().contains("stroke-opacity=\".70\""));
 }

@@ -13,7 +13,10 @@ use wasmtime::Engine;
 use super::super::protocol::{Backtrace, BacktraceOrder};
 use super::super::role::{COMPILE_CPU_SECONDS, Role, SandboxStatus};
 use super::admit::Admitter;
+#[cfg(not(windows))]
 use super::group::Groups;
+#[cfg(windows)]
+use super::job::Groups;
 use super::monitor::{Limit, Monitor};
 use super::play::Sink;
 use super::pool::Pool;

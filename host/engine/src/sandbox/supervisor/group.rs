@@ -3,12 +3,13 @@
 //!
 //! A group limits what the limits of a process do not count, such as files in memory, and it ends
 //! as a whole. systemd gives one to `systemd-run --user --scope -p Delegate=yes wasmouse ...`.
-//! Elsewhere there usually is none, and workers have the limits of a process alone.
+//! Elsewhere there usually is none, and workers have the limits of a process alone. On Windows,
+//! `job` takes the place of this file.
 
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::process;
+use std::process::{self, Child};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 use std::time::Duration;
@@ -154,8 +155,8 @@ impl Group {
     /// # Errors
     ///
     /// When it has ended, or the group is gone.
-    pub(super) fn add(&self, process: u32) -> io::Result<()> {
-        self.set("cgroup.procs", process)
+    pub(super) fn add(&self, process: &Child) -> io::Result<()> {
+        self.set("cgroup.procs", process.id())
     }
 
     /// Whether the kernel killed a process of it because the group had no memory left.

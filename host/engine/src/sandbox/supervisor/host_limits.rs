@@ -38,19 +38,33 @@ pub(super) const fn allows_processor_time(_: u64) -> bool {
     true
 }
 
-/// Elsewhere workers have no limits on memory.
-#[cfg(not(unix))]
-pub(super) const fn can_provide(_: u64) -> bool {
-    true
+/// The same for Windows, where memory has to be committed.
+#[cfg(windows)]
+pub(super) fn can_provide(bytes: u64) -> bool {
+    use windows_sys::Win32::System::Memory::{
+        MEM_COMMIT, MEM_RELEASE, MEM_RESERVE, PAGE_READWRITE, VirtualAlloc, VirtualFree,
+    };
+
+    let Ok(length) = usize::try_from(bytes) else {
+        return false;
+    };
+    // SAFETY: it asks for new pages wherever there is room, and nothing uses them before they are
+    // released again.
+    unsafe {
+        let kind = MEM_RESERVE | MEM_COMMIT;
+        let pages = VirtualAlloc(std::ptr::null(), length, kind, PAGE_READWRITE);
+        !pages.is_null() && VirtualFree(pages, 0, MEM_RELEASE) != 0
+    }
 }
 
 #[cfg(all(test, target_pointer_width = "64"))]
 mod tests {
-    use super::{allows_processor_time, can_provide};
+    use super::can_provide;
 
     #[test]
     #[cfg(unix)]
     fn the_processor_time_that_is_allowed_is_that_of_the_lower_limit() {
+        use super::allows_processor_time;
         use rustix::process::{Resource, getrlimit};
 
         assert!(allows_processor_time(0));

@@ -3,9 +3,13 @@
 mod admit;
 mod api;
 pub(super) mod check;
+mod clock;
 mod compiler;
+#[cfg(not(windows))]
 mod group;
 mod host_limits;
+#[cfg(windows)]
+mod job;
 mod monitor;
 mod play;
 mod pool;

@@ -8,15 +8,12 @@
 
 use std::io;
 use std::process::{Child, Command};
-#[cfg(target_os = "linux")]
-use std::sync::OnceLock;
 use std::sync::mpsc::{self, RecvTimeoutError, Sender, SyncSender};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
-#[cfg(target_os = "linux")]
-use std::{fs, iter};
 
+use super::clock::ProcessClock;
 use crate::time::{Account, CancelFlag};
 
 /// How often workers are checked: one is killed at most this late.
@@ -258,81 +255,4 @@ impl Exchange {
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     // Nothing that holds a lock panics half-way.
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// Measures the processor time of a process, and of those that it has started to do its work.
-#[cfg(target_os = "linux")]
-struct ProcessClock {
-    process: u32,
-    own: Option<libc::clockid_t>,
-    inner: OnceLock<Vec<libc::clockid_t>>,
-}
-
-#[cfg(target_os = "linux")]
-impl ProcessClock {
-    /// How many processes deep a worker may be. In namespaces of its own it is in one that it
-    /// has started; a wrapper around the program adds another.
-    const DEPTH_MAX: usize = 4;
-
-    fn of(child: &Child) -> Self {
-        let process = child.id();
-        Self {
-            process,
-            own: process_clock(process),
-            inner: OnceLock::new(),
-        }
-    }
-
-    /// Looks for the processes that a worker has started before it greeted.
-    fn find_inner(&self) {
-        self.inner.get_or_init(|| {
-            let inner = iter::successors(first_child(self.process), |it| first_child(*it));
-            inner
-                .take(Self::DEPTH_MAX)
-                .filter_map(process_clock)
-                .collect()
-        });
-    }
-
-    /// The time of all its threads by now. The process is not reaped while it is watched, so its
-    /// number means no other one; nor are the inner ones, as long as they work.
-    fn time(&self) -> Duration {
-        let inner = self.inner.get().into_iter().flatten().copied();
-        let clocks = self.own.into_iter().chain(inner);
-        clocks.filter_map(crate::time::clock_time).sum()
-    }
-}
-
-/// The process that this one has started first.
-#[cfg(target_os = "linux")]
-fn first_child(process: u32) -> Option<u32> {
-    let children = fs::read_to_string(format!("/proc/{process}/task/{process}/children"));
-    children.ok()?.split_whitespace().next()?.parse().ok()
-}
-
-/// The clock of a process; `None` when there is no such process.
-#[cfg(target_os = "linux")]
-fn process_clock(process: u32) -> Option<libc::clockid_t> {
-    let process = libc::pid_t::try_from(process).ok()?;
-    let mut clock = 0;
-    // SAFETY: the call writes to `clock` and to nothing else.
-    let result = unsafe { libc::clock_getcpuclockid(process, &raw mut clock) };
-    (result == 0).then_some(clock)
-}
-
-/// Elsewhere, time on the wall clock, which is more.
-#[cfg(not(target_os = "linux"))]
-struct ProcessClock(Instant);
-
-#[cfg(not(target_os = "linux"))]
-impl ProcessClock {
-    fn of(_: &Child) -> Self {
-        Self(Instant::now())
-    }
-
-    fn find_inner(&self) {}
-
-    fn time(&self) -> Duration {
-        self.0.elapsed()
-    }
 }

@@ -1,6 +1,5 @@
 //! [`Process`]: one worker, seen from the supervisor.
 
-use std::ffi::OsString;
 use std::fmt;
 use std::io::{self, BufReader, BufWriter, Read as _, Write as _};
 use std::path::PathBuf;
@@ -14,7 +13,10 @@ use serde::de::DeserializeOwned;
 
 use super::super::protocol::{self, Hello};
 use super::super::role::{Role, SandboxStatus};
+#[cfg(not(windows))]
 use super::group::{Group, Groups};
+#[cfg(windows)]
+use super::job::{Group, Groups};
 use super::monitor::{Kill, Limit, Monitor, Watched};
 use crate::error::InfrastructureError;
 use crate::time::{Control, MATCH_TIME_MAX};
@@ -41,7 +43,7 @@ pub const PATIENCE: Duration = Duration::from_secs(5 * MATCH_TIME_MAX.as_secs())
 pub(super) struct Starter {
     pub(super) monitor: Monitor,
     pub(super) workers: WorkerOptions,
-    /// Control groups for workers, where there are any.
+    /// Control groups or job objects for workers, where there are any.
     pub(super) groups: Option<Groups>,
 }
 
@@ -106,7 +108,18 @@ impl Executable {
             use std::os::unix::process::CommandExt as _;
             // Ctrl-C is for the supervisor, which ends its workers itself.
             command.process_group(0);
-            command.arg0(OsString::from("wasmouse"));
+            command.arg0("wasmouse");
+        }
+        #[cfg(windows)]
+        {
+            use std::os::windows::process::CommandExt as _;
+            use windows_sys::Win32::System::Threading::{
+                CREATE_NEW_PROCESS_GROUP, CREATE_NO_WINDOW,
+            };
+            // For the same reason; and it has no console, so none that a robot could write to.
+            command.creation_flags(CREATE_NO_WINDOW | CREATE_NEW_PROCESS_GROUP);
+            // Some libraries of the system are found by it.
+            command.envs(std::env::var_os("SystemRoot").map(|root| ("SystemRoot", root)));
         }
         command
     }
@@ -119,7 +132,7 @@ pub(super) struct Process {
     to: BufWriter<ChildStdin>,
     from: BufReader<ChildStdout>,
     stderr: ChildStderr,
-    /// Its control group, where there is one. Dropped after the process is reaped.
+    /// Its control group or job object, where there is one. Dropped after the process is reaped.
     group: Option<Group>,
 }
 
@@ -155,10 +168,9 @@ impl Process {
             return Err(failed("it has no pipes".into()));
         };
         // It waits to be told what to do, so it has used nothing and started nothing by now.
-        let pid = watched.child().id();
         let groups = starter.groups.as_ref();
         let group = groups.and_then(|groups| groups.create(role));
-        let group = group.filter(|group| group.add(pid).is_ok());
+        let group = group.filter(|group| group.add(&watched.child()).is_ok());
         Ok(Self {
             group,
             watched,
@@ -310,14 +322,15 @@ fn kill(child: &mut Child) {
 
 impl WorkerExit {
     /// The signal that ended it.
-    pub(super) fn signal(&self) -> Option<i32> {
-        #[cfg(unix)]
-        {
-            use std::os::unix::process::ExitStatusExt as _;
-            self.status.and_then(|status| status.signal())
-        }
-        #[cfg(not(unix))]
-        None
+    #[cfg(unix)]
+    fn signal(&self) -> Option<i32> {
+        use std::os::unix::process::ExitStatusExt as _;
+        self.status.and_then(|status| status.signal())
+    }
+
+    /// The code that it ended with.
+    fn code(&self) -> Option<i32> {
+        self.status.and_then(|status| status.code())
     }
 
     /// Whether it was killed by somebody else than the supervisor, which says nothing
@@ -330,8 +343,11 @@ impl WorkerExit {
             self.signal()
                 .is_some_and(|signal| outside.iter().any(|other| other.as_raw() == signal))
         }
+        // What the Task Manager and `taskkill` end a process with; no worker ends with it itself.
         #[cfg(not(unix))]
-        false
+        {
+            self.code() == Some(1)
+        }
     }
 
     /// Whether it ended by a signal that a process brings about by what it does: a bad
@@ -352,8 +368,11 @@ impl WorkerExit {
             self.signal()
                 .is_some_and(|signal| own.iter().any(|other| other.as_raw() == signal))
         }
+        // The code is then that of an exception, and those of errors have the highest bits set.
         #[cfg(not(unix))]
-        self.status.is_some_and(|status| !status.success())
+        {
+            self.code().is_some_and(|code| code < 0)
+        }
     }
 
     /// Whether it was refused memory.
@@ -363,7 +382,7 @@ impl WorkerExit {
 
     /// Whether it panicked, by the exit code that Rust programs then have.
     pub(super) fn is_panic(&self) -> bool {
-        self.status.and_then(|status| status.code()) == Some(101)
+        self.code() == Some(101)
     }
 
     /// Whether it used up its processor time.

@@ -16,6 +16,10 @@ pub fn set_limits(role: Role) {
     // No core may be written, and few descriptors are needed.
     limit(Resource::Core, 0, 0);
     limit(Resource::Nofile, 64, 64);
+    // Elsewhere this counts threads, or all processes of the user; workers of Linux have namespaces
+    // and filters instead.
+    #[cfg(target_os = "macos")]
+    limit(Resource::Nproc, 0, 0);
     // What can be written is limited, and not the address space: a pool of instances reserves
     // terabytes of that without using them, and an allocator reserves some for each thread.
     let (file, data) = match role {

@@ -1,0 +1,111 @@
+//! [`html()`]: a contest as one self-contained web page.
+//!
+//! Nothing is loaded from elsewhere, and the content security policy forbids it. Everything can
+//! be read without the script, which sorts and filters tables. Untrusted text is escaped for
+//! HTML by maud, and [`shown`] makes invisible characters visible. Cells and pictures
+//! of matches have the address of their match in `data-match`.
+
+use data_encoding::BASE64;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use wasmouse_core::Digest;
+
+use super::parts::shown;
+use super::{boxes, method, pictures, scatter, scores, standings};
+use crate::report::contest::document::ContestReport;
+use crate::report::contest::view::View;
+use crate::report::contest::words::{self, count};
+use crate::report::picture::SVG_STYLE;
+
+const STYLE: &str = include_str!("page.css");
+
+const SCRIPT: &str = include_str!("page.js");
+
+/// A part of the page: its id, its heading and what stands below.
+struct Section {
+    id: &'static str,
+    title: &'static str,
+    content: Markup,
+}
+
+/// The page. A contest of 5 robots in 500 mazes takes about half a megabyte; of larger ones only
+/// a part of the matches is shown, and the page says so.
+pub fn html(report: &ContestReport<'_>) -> String {
+    let view = View::new(report);
+    let sections = [
+        ("standings", "Standings", standings::standings(&view)),
+        ("comparisons", "Comparisons", standings::comparisons(&view)),
+        ("not-ranked", "Not ranked", standings::unranked(&view)),
+        ("faults", "Faults", standings::faults(&view)),
+        (
+            "distribution",
+            "Distribution of scores",
+            boxes::boxes(&view),
+        ),
+        ("runs", "Exploration and speed run", scatter::scatter(&view)),
+        ("matches", "Robots by mazes", scores::scores(&view)),
+        ("best", "Best match of each robot", pictures::best(&view)),
+        ("hardest", "Hardest mazes", pictures::hardest(&view)),
+        ("method", "Method", method::method(&view)),
+    ];
+    let sections = sections
+        .into_iter()
+        .filter_map(|(id, title, content)| content.map(|content| Section { id, title, content }));
+    page(&view, &sections.collect::<Vec<_>>())
+}
+
+fn page(view: &View<'_>, sections: &[Section]) -> String {
+    let report = view.report;
+    let name = shown(report.name);
+    let style = format!("{STYLE}{SVG_STYLE}\n");
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(policy(&style));
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (name) }
+                style { (PreEscaped(&style)) }
+            }
+            body {
+                header {
+                    h1 { (name) }
+                    p.quiet {
+                        (count(view.matrix().robots.len() as u64, "robot")) ", "
+                        (count(view.matrix().mazes.len() as u64, "maze")) ", "
+                        (count(view.matches_played(), "match"))
+                        "; ruleset " (shown(&report.matrix.rules.name))
+                        " version " (report.matrix.rules.version)
+                    }
+                    @if let Some(missing) = words::missing(view) { p.notice { strong { (missing) } } }
+                    @for sentence in words::left_out(view) { p.notice { (shown(&sentence)) } }
+                    nav aria-label="Contents" { ul {
+                        @for section in sections { li { a href={ "#" (section.id) } { (section.title) } } }
+                    } }
+                }
+                main {
+                    @for section in sections {
+                        section aria-labelledby=(section.id) {
+                            h2 id=(section.id) { (section.title) }
+                            (section.content)
+                        }
+                    }
+                }
+                script { (PreEscaped(SCRIPT)) }
+            }
+        }
+    }
+    .into_string()
+}
+
+/// A policy that allows this style sheet and this script and nothing else.
+fn policy(style: &str) -> String {
+    let [style, script] = [style, SCRIPT].map(|text| {
+        let hash = BASE64.encode(Digest::of(text.as_bytes()).as_bytes());
+        format!("'sha256-{hash}'")
+    });
+    format!(
+        "default-src 'none'; style-src {style}; script-src {script}; base-uri 'none'; \
+         form-action 'none'"
+    )
+}

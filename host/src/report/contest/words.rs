@@ -1,0 +1,284 @@
+//! Words about a contest that several formats share.
+
+use wasmouse_core::game::{BudgetScope, Ruleset};
+
+use super::document::Compared;
+use super::view::{FaultLine, Part, Unranked, View};
+use crate::contest::{
+    MatchScore, Mean, Method, Outcome, PairedVerdict, RankingLine, Scoring, Seeds, TieBreak,
+};
+
+/// What is shown where there is no value.
+pub(super) const NONE: &str = "-";
+
+/// What the value is called that robots are ranked by.
+pub(super) const fn value_title(method: Method) -> &'static str {
+    match method {
+        Method::MeanScore => "Mean score",
+        Method::Regret => "Mean regret",
+        Method::RankPoints => "Points",
+    }
+}
+
+/// How robots are ranked, as sentences.
+pub(super) fn ranked_by(scoring: &Scoring, penalty_steps: u32) -> String {
+    let unfinished = format!("an unfinished match counts as {penalty_steps} steps");
+    let method = match scoring.method {
+        Method::MeanScore => format!("Ranked by mean score (lower is better); {unfinished}."),
+        Method::Regret => format!(
+            "Ranked by mean regret (lower is better): score minus the score of a robot that \
+             knows the maze; {unfinished}."
+        ),
+        Method::RankPoints => "Ranked by points (higher is better): one for each robot that did \
+                               worse in the same match, half a point for each that did equally \
+                               well."
+            .to_owned(),
+    };
+    let ties: Vec<&str> = scoring.order().iter().map(|&it| tie_break(it)).collect();
+    format!("{method} Ties: {}.", ties.join(", then "))
+}
+
+const fn tie_break(tie_break: TieBreak) -> &'static str {
+    match tie_break {
+        TieBreak::Finished => "more finished matches",
+        TieBreak::MedianScore => "the lower median score",
+        TieBreak::ExplorationSteps => "fewer exploration steps",
+        TieBreak::Fuel => "less fuel per step",
+        TieBreak::Memory => "less memory",
+    }
+}
+
+/// What a score is under these rules.
+pub(super) fn scored_by(rules: &Ruleset) -> String {
+    let game = &rules.game;
+    let budget = match game.budget_scope {
+        BudgetScope::BothRuns => format!("{} steps for both runs", game.budget),
+        BudgetScope::EachRun => format!("{} steps for each run", game.budget),
+    };
+    format!(
+        "Score: steps of the speed run, plus steps of the exploration run divided by {}. \
+         Budget: {budget}; longest move: {} cells.",
+        game.exploration_divisor, game.longest_move
+    )
+}
+
+/// What a ranking is about: `Overall`, `Set hidden`, `Class small`.
+pub(super) fn part_title(part: &Part<'_>) -> String {
+    match (part.set, part.class) {
+        (Some(set), _) => format!("Set {set}"),
+        (_, Some(class)) => format!("Class {class}"),
+        _ => "Overall".to_owned(),
+    }
+}
+
+/// Over which mazes a ranking is.
+pub(super) fn scope(part: &Part<'_>) -> String {
+    let ranking = part.ranking;
+    let (mazes, total) = (ranking.mazes, ranking.mazes_total);
+    let mut scope = if ranking.partial {
+        format!("partial: ranked over {mazes} of {total} mazes that every robot has played")
+    } else {
+        format!("ranked over {}", count(mazes, "maze"))
+    };
+    if ranking.mazes_unreachable > 0 {
+        let unreachable = count(ranking.mazes_unreachable, "maze");
+        scope.push_str(&format!(
+            "; {unreachable} without a path to the goal left out"
+        ));
+    }
+    scope
+}
+
+/// A number of things: `1 maze`, `2 mazes`.
+pub(super) fn count(number: u64, thing: &str) -> String {
+    let ending = match (number, thing) {
+        (1, _) => "",
+        (_, "match") => "es",
+        _ => "s",
+    };
+    format!("{number} {thing}{ending}")
+}
+
+/// What is not shown, as sentences; empty if everything is.
+pub(super) fn left_out(view: &View<'_>) -> Vec<String> {
+    let options = &view.report.options;
+    let mut sentences = Vec::new();
+    if let Some(since) = &options.frozen {
+        sentences.push(format!("The standings are frozen ({since})."));
+    }
+    if view.robots_hidden() > 0 {
+        let (top, robots) = (options.show_top.unwrap_or(0), view.robots_hidden() as u64);
+        sentences.push(format!(
+            "Only the top {top} are shown; {} not.",
+            are(robots, "robot")
+        ));
+    }
+    if options.hide_names {
+        sentences
+            .push("Robots are called by the beginning of the SHA-256 of their files.".to_owned());
+    }
+    if view.mazes_hidden() > 0 {
+        let mazes = are(view.mazes_hidden() as u64, "hidden maze");
+        sentences.push(format!("{mazes} not shown, but their scores count."));
+    }
+    sentences
+}
+
+/// `1 robot is`, `2 robots are`.
+fn are(number: u64, thing: &str) -> String {
+    let verb = if number == 1 { "is" } else { "are" };
+    format!("{} {verb}", count(number, thing))
+}
+
+/// How many matches are missing, as a sentence; `None` if everything was played.
+pub(super) fn missing(view: &View<'_>) -> Option<String> {
+    let planned = view.report.matches_planned;
+    let missing = planned.saturating_sub(view.matches_played());
+    (missing > 0).then(|| format!("Incomplete: {missing} of {planned} matches were not played."))
+}
+
+/// Why a robot has no rank, as a sentence after its name, with line breaks left out.
+pub(super) fn unranked(unranked: &Unranked<'_>) -> String {
+    let mut text = unranked.state.to_owned();
+    if let Some((reason, hint)) = &unranked.rejection {
+        text.push_str(&format!(": {reason} (hint: {hint})"));
+    }
+    for (index, (reason, count_of)) in unranked.reasons.iter().enumerate() {
+        text.push_str(if index == 0 { ": " } else { "; " });
+        text.push_str(reason);
+        if let Some(number) = count_of {
+            text.push_str(&format!(" ({} not played)", count(*number, "match")));
+        }
+    }
+    text
+}
+
+/// A kind of fault of a robot, as a sentence after its name.
+pub(super) fn fault(line: &FaultLine) -> String {
+    let mut text = format!(
+        "{} in {} of {} matches",
+        line.kind, line.count, line.matches
+    );
+    match &line.first {
+        None => text.push_str(", first in a hidden maze"),
+        Some(first) => {
+            text.push_str(&format!(", first in {}, seed {}", first.maze, first.seed));
+            if let Some(detail) = &first.detail {
+                text.push_str(&format!(": {detail}"));
+            }
+        }
+    }
+    text
+}
+
+/// What came of a comparison, as a sentence.
+pub(super) fn comparison(view: &View<'_>, compared: &Compared) -> String {
+    let it = &compared.comparison;
+    let (first, second) = (view.name(compared.first), view.name(compared.second));
+    let thousandths = |value: i64| Mean::fraction(value.into(), 1000).to_string();
+    let difference = it.difference.map(Mean::thousandths);
+    let interval = it.interval_thousandths;
+    let interval_of = |[low, high]: [i64; 2]| {
+        format!(
+            " (95 % interval {} to {})",
+            thousandths(low),
+            thousandths(high)
+        )
+    };
+    let (head, interval) = match (it.verdict, difference) {
+        (PairedVerdict::Better, Some(difference)) => (
+            format!(
+                "{first} is better than {second} by {} steps",
+                thousandths(-difference)
+            ),
+            interval.map(|[low, high]| interval_of([-high, -low])),
+        ),
+        (PairedVerdict::Worse, Some(difference)) => (
+            format!(
+                "{first} is worse than {second} by {} steps",
+                thousandths(difference)
+            ),
+            interval.map(interval_of),
+        ),
+        _ => (
+            format!(
+                "{first} or {second} is undecided: mean difference {}",
+                mean(it.difference)
+            ),
+            interval.map(interval_of),
+        ),
+    };
+    let (wins, ties, losses) = (it.wins, it.ties, it.losses);
+    let mut text = format!("{head}{}", interval.unwrap_or_default());
+    text.push_str(&format!(
+        ", in {}: {wins} better, {ties} equal, {losses} worse",
+        count(it.mazes, "maze")
+    ));
+    if let (PairedVerdict::Undecided, Some(mazes)) = (it.verdict, it.mazes_to_decide) {
+        text.push_str(&format!("; about {mazes} mazes would decide"));
+    }
+    text
+}
+
+/// An average with three decimals.
+pub(super) fn mean(mean: Option<Mean>) -> String {
+    mean.map_or_else(|| NONE.to_owned(), |mean| mean.to_string())
+}
+
+/// An average in thousandths.
+pub(super) fn thousandths(mean: Option<Mean>) -> Option<i64> {
+    mean.map(Mean::thousandths)
+}
+
+/// A share in percent, rounded down, so that only everything is 100 %.
+pub(super) fn percent(share: Option<Mean>) -> String {
+    share.map_or_else(
+        || NONE.to_owned(),
+        |share| format!("{} %", share.times(100).thousandths().div_euclid(1000)),
+    )
+}
+
+/// The rank of a line.
+pub(super) fn rank(line: &RankingLine) -> String {
+    line.rank
+        .map_or_else(|| NONE.to_owned(), |rank| rank.to_string())
+}
+
+/// A number with its thousands apart, for people.
+pub(super) fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::with_capacity(digits.len() * 4 / 3);
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index) % 3 == 0 {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// How a match ended, in a word for tables of many matches.
+pub(super) const fn outcome(score: &MatchScore) -> &'static str {
+    match score.outcome {
+        Outcome::Finished => "finished",
+        Outcome::BudgetUsedUp { goal_reached: true } => "budget used up, goal reached",
+        Outcome::BudgetUsedUp { .. } => "budget used up",
+        Outcome::Fault(_) => "fault",
+    }
+}
+
+/// An average to the nearest whole number.
+pub(super) fn whole(mean: Option<Mean>) -> String {
+    mean.map_or_else(
+        || NONE.to_owned(),
+        |mean| ((mean.thousandths() + 500).div_euclid(1000)).to_string(),
+    )
+}
+
+/// The seeds of every maze: `seed 0`, `seeds 0 to 4`.
+pub(super) fn seeds(seeds: Seeds) -> String {
+    match seeds.count {
+        0 | 1 => format!("seed {}", seeds.first),
+        count => format!("seeds {} to {}", seeds.first, seeds.get(count - 1)),
+    }
+}

@@ -1,0 +1,59 @@
+//! [`tap`]: grades in the Test Anything Protocol, version 14.
+
+use std::fmt::Write as _;
+
+use super::super::escape::for_terminal;
+use super::super::json;
+use super::sentence::{Report, points, sentence, verdict};
+use crate::contest::grade::Status;
+
+/// A test point for each criterion of each robot, and one for each robot that says whether it
+/// passes.
+///
+/// What could not be measured is `not ok`, because a directive `SKIP` would make it a success.
+pub fn tap(report: &Report<'_>) -> String {
+    let mut text = String::new();
+    let mut count = 0;
+    let mut point = |is_ok: bool, description: &str, entries: &[(&str, String)]| {
+        count += 1;
+        let not = if is_ok { "" } else { "not " };
+        writeln!(text, "{not}ok {count} - {}", escaped(description))
+            .expect("writing to a string cannot fail");
+        text.push_str("  ---\n");
+        for (key, value) in entries {
+            // A string of JSON is one of YAML.
+            writeln!(text, "  {key}: {}", json::line(&for_terminal(value)))
+                .expect("writing to a string cannot fail");
+        }
+        text.push_str("  ...\n");
+    };
+    for grade in report.grades {
+        for (criterion, result) in report.criteria(grade) {
+            let earned = points(result.points_thousandths);
+            point(
+                result.status == Status::Passed,
+                &format!("{}: {}", grade.robot, criterion.name),
+                &[
+                    ("message", sentence(criterion, result)),
+                    ("status", result.status.name().to_owned()),
+                    ("points", format!("{earned} of {}", criterion.points)),
+                ],
+            );
+        }
+        let earned = points(grade.points_thousandths);
+        point(
+            grade.is_passed,
+            &format!("{} passes", grade.robot),
+            &[
+                ("result", verdict(grade).to_owned()),
+                ("points", format!("{earned} of {}", grade.points_max)),
+            ],
+        );
+    }
+    format!("TAP version 14\n1..{count}\n{text}")
+}
+
+/// A description of a test point, in which `#` begins no directive.
+fn escaped(text: &str) -> String {
+    for_terminal(text).replace('\\', "\\\\").replace('#', "\\#")
+}

@@ -1,0 +1,264 @@
+//! [`Store::content_digest`]: a store in one line. [`Store::seal`]: the same, written into it.
+
+use rusqlite::{Connection, Row, params};
+use wasmouse_core::game::Verdict;
+use wasmouse_core::record::MatchRecord;
+use wasmouse_core::{Digest, DigestBuilder};
+
+use super::columns::fault_code;
+use super::error::{StoreError, StoreErrorKind};
+use super::ids::Address;
+use super::open::Store;
+use super::scan::{Catalog, each_record, each_transcript};
+use super::seal::{sealed, unseal};
+use super::submissions;
+
+impl Store {
+    /// A digest of everything that the store holds: equal stores have equal digests, whatever the
+    /// order in which matches were played, restarts, merges, ids, and pages. A seal is not part of
+    /// it.
+    ///
+    /// Takes about a second for a million matches.
+    ///
+    /// # Errors
+    ///
+    /// When the store cannot be read.
+    pub fn content_digest(&self) -> Result<Digest, StoreError> {
+        self.read(|connection| content_digest(connection))
+    }
+
+    /// Seals the store: writes its content digest into it, because a run has ended. Whoever
+    /// changes the store after that without wasmouse breaks the seal, as far as he does not
+    /// compute it anew: it finds accidents and careless changes, not forgers. Writing through
+    /// wasmouse removes it.
+    ///
+    /// # Errors
+    ///
+    /// When the store cannot be written.
+    pub fn seal(&mut self) -> Result<Digest, StoreError> {
+        self.write(|transaction| {
+            let content = content_digest(transaction)?;
+            unseal(transaction)?;
+            let sql = "INSERT INTO seal(id, content) VALUES(1, ?1)";
+            transaction.execute(sql, params![content.as_bytes()])?;
+            Ok(content)
+        })
+    }
+
+    /// The content digest with which the store was sealed; `None` if it was written since.
+    ///
+    /// # Errors
+    ///
+    /// When the store cannot be read.
+    pub fn sealed(&self) -> Result<Option<Digest>, StoreError> {
+        self.read(|connection| sealed(connection))
+    }
+}
+
+/// Canonical encoding `wasmouse.store.1` ([`DigestBuilder`]): for each table the number of its
+/// rows and their digests in the order of their bytes. Rows are encoded with digests for ids;
+/// matches are grouped by player, so that those of a player are in memory at once and not all.
+pub(super) fn content_digest(connection: &Connection) -> Result<Digest, StoreErrorKind> {
+    let catalog = Catalog::load(connection)?;
+    let mut tables = vec![
+        catalog.engines.values().map(|it| it.digest()).collect(),
+        catalog.robots.values().copied().collect(),
+    ];
+    for (name, sql) in TABLES {
+        tables.push(rows(connection, name, sql)?);
+    }
+    tables.push(submissions_by_name(connection)?);
+    tables.push(transcripts(connection, &catalog)?);
+    tables.push(matches(connection, &catalog)?);
+    let builder = DigestBuilder::new("wasmouse.store.1");
+    let tables = tables.into_iter().map(list);
+    Ok(tables.fold(builder, |it, table| it.digest(&table)).finish())
+}
+
+/// Tables whose rows are digests, numbers and text without ids.
+const TABLES: [(&str, &str); 6] = [
+    ("wasmouse.store.rules.1", "SELECT digest, json FROM rules"),
+    (
+        "wasmouse.store.maze.1",
+        "SELECT digest, name, dimension FROM maze",
+    ),
+    (
+        "wasmouse.store.oracle.1",
+        "SELECT z.digest, r.digest, ifnull(oracle_exploration, -1), ifnull(oracle_speed, -1) \
+         FROM oracle o JOIN maze z ON z.id = o.maze JOIN rules r ON r.id = o.rules",
+    ),
+    (
+        "wasmouse.store.generated.1",
+        "SELECT z.digest, g.generator, g.name FROM generated g JOIN maze z ON z.id = g.maze",
+    ),
+    ("wasmouse.store.conflict.1", "SELECT record FROM conflict"),
+    (
+        "wasmouse.store.unplayed.1",
+        "SELECT e.digest, r.digest, o.digest, u.variant, z.digest, u.seed, u.cause, u.reason \
+         FROM unplayed u JOIN engine e ON e.id = u.engine JOIN rules r ON r.id = u.rules \
+         JOIN robot o ON o.id = u.robot JOIN maze z ON z.id = u.maze",
+    ),
+];
+
+/// A digest of digests that does not depend on their order.
+fn list(mut digests: Vec<Digest>) -> Digest {
+    digests.sort_unstable();
+    let builder = DigestBuilder::new("wasmouse.store.list.1").numbers(&[digests.len() as u64]);
+    digests.iter().fold(builder, DigestBuilder::digest).finish()
+}
+
+fn rows(connection: &Connection, name: &str, sql: &str) -> Result<Vec<Digest>, StoreErrorKind> {
+    let mut statement = connection.prepare(sql)?;
+    let columns = statement.column_count();
+    let digests = statement.query_map([], |row| {
+        let builder = DigestBuilder::new(name);
+        let builder =
+            (0..columns).try_fold(builder, |builder, column| add_column(builder, row, column))?;
+        Ok(builder.finish())
+    })?;
+    Ok(digests.collect::<Result<_, _>>()?)
+}
+
+fn add_column(
+    builder: DigestBuilder,
+    row: &Row<'_>,
+    column: usize,
+) -> rusqlite::Result<DigestBuilder> {
+    use rusqlite::types::ValueRef;
+    Ok(match row.get_ref(column)? {
+        ValueRef::Integer(number) => builder.numbers(&[1, number.cast_unsigned()]),
+        ValueRef::Text(bytes) => builder.numbers(&[2]).bytes(bytes),
+        ValueRef::Blob(bytes) => builder.numbers(&[3]).bytes(bytes),
+        ValueRef::Null | ValueRef::Real(_) => builder.numbers(&[0]),
+    })
+}
+
+/// The submissions of each name, in their order.
+fn submissions_by_name(connection: &Connection) -> Result<Vec<Digest>, StoreErrorKind> {
+    let mut all = submissions::all(connection)?;
+    // Stable, so the order within a name stays.
+    all.sort_by(|left, right| left.name.cmp(&right.name));
+    let text = |builder: DigestBuilder, text: Option<&String>| match text {
+        Some(text) => builder.numbers(&[1]).bytes(text.as_bytes()),
+        None => builder.numbers(&[0]),
+    };
+    let by_name = all.chunk_by(|left, right| left.name == right.name);
+    let digests = by_name.map(|history| {
+        let builder = DigestBuilder::new("wasmouse.store.submissions.1");
+        let builder = history.iter().fold(builder, |builder, it| {
+            let rejection = it.rejection.as_ref();
+            let builder = builder.bytes(it.name.as_bytes()).digest(&it.robot);
+            let builder = builder.numbers(&[it.variant.into()]);
+            let builder = text(builder, it.author.as_ref());
+            let builder = text(builder, it.class.as_ref());
+            let builder = text(builder, rejection.map(|it| &it.kind));
+            let builder = text(builder, rejection.map(|it| &it.reason));
+            text(builder, rejection.map(|it| &it.hint))
+        });
+        builder.finish()
+    });
+    Ok(digests.collect())
+}
+
+fn transcripts(connection: &Connection, catalog: &Catalog) -> Result<Vec<Digest>, StoreErrorKind> {
+    let mut digests = Vec::new();
+    each_transcript(connection, |row| -> Result<(), StoreErrorKind> {
+        let builder = DigestBuilder::new("wasmouse.store.transcript.1")
+            .digest(&catalog.key(&row.at)?.digest())
+            .numbers(&[row.is_best.into()])
+            .bytes(row.bytes);
+        digests.push(builder.finish());
+        Ok(())
+    })?;
+    Ok(digests)
+}
+
+fn matches(connection: &Connection, catalog: &Catalog) -> Result<Vec<Digest>, StoreErrorKind> {
+    let mut players = Vec::new();
+    let mut player: Option<Address> = None;
+    let mut records = Vec::new();
+    let same_player = |left: &Address, right: &Address| {
+        let part = |it: &Address| (it.engine, it.rules, it.robot, it.variant);
+        part(left) == part(right)
+    };
+    let mut end = |at: &Address, records: &mut Vec<Digest>| -> Result<(), StoreErrorKind> {
+        let key = catalog.key(at)?;
+        let builder = DigestBuilder::new("wasmouse.store.player.1")
+            .digest(&key.engine)
+            .digest(&key.rules)
+            .digest(&key.robot)
+            .numbers(&[key.variant.into()])
+            .digest(&list(std::mem::take(records)));
+        players.push(builder.finish());
+        Ok(())
+    };
+    each_record(
+        connection,
+        catalog,
+        |at, record| -> Result<(), StoreErrorKind> {
+            if let Some(last) = &player
+                && !same_player(last, at)
+            {
+                end(last, &mut records)?;
+            }
+            player = Some(*at);
+            records.push(record_digest(&record));
+            Ok(())
+        },
+    )?;
+    if let Some(last) = &player {
+        end(last, &mut records)?;
+    }
+    Ok(players)
+}
+
+/// The digest of a record among those of its player.
+fn record_digest(record: &MatchRecord) -> Digest {
+    let verdict = match &record.verdict {
+        Verdict::Finished { .. } => 0,
+        Verdict::BudgetUsedUp { goal_reached } => 1 + u64::from(*goal_reached),
+        Verdict::Fault { .. } => 3,
+    };
+    let builder = DigestBuilder::new("wasmouse.store.match.1")
+        .digest(&record.key.maze)
+        .digest(&record.transcript)
+        .numbers(&[
+            record.key.seed,
+            verdict,
+            record.steps.exploration.into(),
+            record.steps.speed.into(),
+            record.counts.bumps.into(),
+            record.counts.clamps.into(),
+            record.counts.resets_before_goal.into(),
+            record.counts.resets_in_speed_run.into(),
+            record.fuel.start,
+            record.fuel.steps,
+            record.fuel.step_max,
+            record.memory_bytes,
+            record.journal.entries,
+            record.journal.dropped,
+        ]);
+    let Some(fault) = record.verdict.fault() else {
+        return builder.finish();
+    };
+    let phase = serde_json::to_string(&fault.phase).expect("a phase has a JSON form");
+    builder
+        .numbers(&[
+            fault_code(fault.kind).into(),
+            fault.run.number().into(),
+            fault.step.into(),
+            fault.cell.x.into(),
+            fault.cell.y.into(),
+        ])
+        .bytes(phase.as_bytes())
+        .bytes(fault.detail.as_bytes())
+        .finish()
+}
+
+/// Whether the store still has the content with which it was sealed; `None` without a seal.
+pub(super) fn seal_holds(connection: &Connection) -> Result<Option<bool>, StoreErrorKind> {
+    let Some(sealed) = sealed(connection)? else {
+        return Ok(None);
+    };
+    Ok(Some(content_digest(connection)? == sealed))
+}
