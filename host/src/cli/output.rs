@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use serde::Serialize;
 use tempfile::NamedTempFile;
 
 use super::exit::Exit;
@@ -170,6 +171,17 @@ pub fn save(path: &Path, bytes: &[u8], existing: Existing) -> Result<(), Failure
     let written = draft.write_all(bytes);
     written.map_err(|error| failure(path, &error))?;
     draft.commit()
+}
+
+/// Writes a value as indented JSON.
+///
+/// # Errors
+///
+/// When the file cannot be written.
+pub fn write_json(draft: &mut Draft, path: &Path, value: &impl Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(value).expect("the value has a JSON form");
+    let written = writeln!(draft, "{text}");
+    written.map_err(|error| failure(path, &error))
 }
 
 /// A file that is being written under a temporary name, beside the one that it will replace.

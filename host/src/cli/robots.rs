@@ -241,6 +241,11 @@ impl RobotSpec {
         }
     }
 
+    /// The number that chooses its mode.
+    pub const fn variant(&self) -> u32 {
+        self.variant
+    }
+
     /// Whose code it is: bundled robots are trusted.
     pub const fn trust(&self) -> Trust {
         match self.source {

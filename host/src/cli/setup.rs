@@ -27,7 +27,7 @@ pub struct SetupArgs {
 }
 
 /// What robots are run with, whatever the rules.
-#[derive(clap::Args, Debug)]
+#[derive(clap::Args, Clone, Debug)]
 pub struct EngineArgs {
     /// Number of matches to play in parallel, at most 1024 [default: number of cores]
     #[arg(long, short, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -72,6 +72,14 @@ pub struct TimeArgs {
 }
 
 impl TimeArgs {
+    /// Processor time of a match and of each robot; `None` is the default.
+    pub fn new(match_time: Option<Duration>, robot_time: Option<Duration>) -> Self {
+        Self {
+            match_time: match_time.unwrap_or(MATCH_TIME_MAX).as_secs(),
+            robot_time: robot_time.map(|it| it.as_secs()),
+        }
+    }
+
     /// Processor time of each robot; `None` is the default.
     pub fn robot_time(&self) -> Option<Duration> {
         self.robot_time.map(Duration::from_secs)
@@ -138,6 +146,14 @@ impl SetupArgs {
 }
 
 impl EngineArgs {
+    /// The same with another default for `--jobs`.
+    #[must_use]
+    pub fn with_jobs_default(&self, jobs: Option<u16>) -> Self {
+        let mut args = self.clone();
+        args.jobs = args.jobs.or(jobs);
+        args
+    }
+
     /// Threads to play matches on, at least 1.
     pub fn jobs(&self) -> usize {
         let cores = || thread::available_parallelism().map_or(1, NonZeroUsize::get);

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use wasmouse_core::game::{Ruleset, Score};
 use wasmouse_core::record::{EngineId, MatchKey, MatchRecord};
 use wasmouse_core::{Digest, DigestBuilder};
+use wasmouse_engine::admission::Rejection;
 use wasmouse_engine::engine_id;
 
 use super::maze_source::ContestMaze;
@@ -90,6 +91,27 @@ pub struct RejectionEntry {
     pub hint: String,
 }
 
+impl From<&Rejection> for RejectionEntry {
+    fn from(rejection: &Rejection) -> Self {
+        Self {
+            kind: rejection.name().to_owned(),
+            reason: rejection.to_string(),
+            hint: rejection.hint().to_owned(),
+        }
+    }
+}
+
+impl From<RejectionEntry> for Rejection {
+    fn from(entry: RejectionEntry) -> Self {
+        let RejectionEntry { kind, reason, hint } = entry;
+        Self::Reported {
+            name: kind,
+            reason,
+            hint,
+        }
+    }
+}
+
 /// The part of a document that comes after the matches.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -145,14 +167,7 @@ impl ContestInfo {
         let robots = plan.entrants.iter().map(|entrant| {
             let (rejection, failure) = match &entrant.admission {
                 Ok(_) => (None, None),
-                Err(NotAdmitted::Rejected(it)) => {
-                    let rejection = RejectionEntry {
-                        kind: it.name().to_owned(),
-                        reason: it.to_string(),
-                        hint: it.hint().to_owned(),
-                    };
-                    (Some(rejection), None)
-                }
+                Err(NotAdmitted::Rejected(it)) => (Some(RejectionEntry::from(&**it)), None),
                 Err(NotAdmitted::Failed(reason)) => (None, Some(reason.clone())),
             };
             RobotEntry {

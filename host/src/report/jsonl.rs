@@ -2,6 +2,8 @@
 
 use std::io;
 
+use wasmouse_core::record::MatchRecord;
+
 use super::json;
 use crate::contest::{ContestMatch, Sink};
 
@@ -29,15 +31,20 @@ impl<W: io::Write> JsonLines<W> {
 
 impl<W: io::Write + Send> Sink for JsonLines<W> {
     fn played(&mut self, played: &ContestMatch) -> io::Result<()> {
-        let mut line = json::line(&played.record);
-        line.push('\n');
-        self.0.write_all(line.as_bytes())
+        self.0.write_all(record_line(&played.record).as_bytes())
     }
+}
+
+/// A record as a line, with its end, escaped for terminals.
+pub fn record_line(record: &MatchRecord) -> String {
+    let mut line = json::line(record);
+    line.push('\n');
+    line
 }
 
 #[cfg(test)]
 mod tests {
-    use wasmouse_core::record::{MatchRecord, Transcript};
+    use wasmouse_core::record::Transcript;
 
     use super::super::sample::results;
     use super::*;

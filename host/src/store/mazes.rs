@@ -72,6 +72,18 @@ impl Store {
         })
     }
 
+    /// The digests of all mazes.
+    ///
+    /// # Errors
+    ///
+    /// When the store cannot be read.
+    pub fn maze_digests(&self) -> Result<Vec<Digest>, StoreError> {
+        self.read(|connection| {
+            let mazes = ids::all(connection, Table::Maze)?.into_iter();
+            Ok(mazes.map(|(_, digest)| digest).collect())
+        })
+    }
+
     /// A maze; `None` if the store does not have it.
     ///
     /// # Errors

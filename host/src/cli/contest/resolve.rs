@@ -192,7 +192,12 @@ fn robot_files(
     robots::files_at(&full)
 }
 
-fn all_mazes(contest: &ContestFolder) -> Result<Vec<ResolvedSet>, Failure> {
+/// The sets of a contest with their mazes, which are read.
+///
+/// # Errors
+///
+/// When a path names nothing, or a maze cannot be used or is in two sets.
+pub fn all_mazes(contest: &ContestFolder) -> Result<Vec<ResolvedSet>, Failure> {
     let mut requests = Vec::new();
     let mut keys = Vec::new();
     for (set, entry) in contest.file.mazes.iter().enumerate() {

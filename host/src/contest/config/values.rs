@@ -32,6 +32,16 @@ impl<const MIN: u64, const MAX: u64> Integer<MIN, MAX> {
         const { assert!(MAX <= u32::MAX as u64) };
         self.0 as u32
     }
+
+    /// The number.
+    ///
+    /// # Panics
+    ///
+    /// Does not compile if the range has larger numbers.
+    pub const fn get_u16(self) -> u16 {
+        const { assert!(MAX <= u16::MAX as u64) };
+        self.0 as u16
+    }
 }
 
 impl<'de, const MIN: u64, const MAX: u64> Deserialize<'de> for Integer<MIN, MAX> {
