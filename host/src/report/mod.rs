@@ -7,8 +7,9 @@
 
 pub mod bundled;
 pub mod config;
-pub mod contest_check;
 pub mod contest;
+pub mod contest_check;
+pub mod contest_status;
 pub mod escape;
 pub mod faults;
 pub mod grade;

@@ -1,0 +1,83 @@
+//! [`contest_status`]: what a store has of a contest.
+
+use std::fmt::Write as _;
+
+use wasmouse_core::Digest;
+
+use super::text::text;
+use crate::contest::ScoreMatrix;
+
+/// What [`contest_status`] shows.
+pub struct Status<'a> {
+    /// What the contest is called.
+    pub name: &'a str,
+    /// The path of the store, to print it.
+    pub store: String,
+    /// Whether all pages and records were checked.
+    pub is_checked: bool,
+    /// How many matches the contest has.
+    pub matches: u64,
+    /// How many are left to play.
+    pub left: u64,
+    /// What was played.
+    pub matrix: &'a ScoreMatrix,
+    /// How many matches have two records.
+    pub conflicts: u64,
+    /// All submissions, the oldest first: name, file, variant, and the kind of its rejection.
+    pub submissions: Vec<(String, Digest, u32, Option<String>)>,
+}
+
+/// Some lines about the contest, one for each robot, and one for each submission. Ends with a
+/// newline.
+pub fn contest_status(status: &Status<'_>) -> String {
+    let mut text = String::new();
+    let mut line = |line: super::text::Text| {
+        writeln!(text, "{}", line.as_str()).expect("a string takes any text");
+    };
+    let matrix = status.matrix;
+    line(text!("{}: {}", status.name, status.store));
+    line(text!(
+        "{} of {} matches were played, {} are left to play",
+        matrix.played(),
+        status.matches,
+        status.left
+    ));
+    if status.is_checked {
+        line(text!("the store is sound"));
+    }
+    if status.conflicts > 0 {
+        line(text!(
+            "{} matches have two different records: this is a bug, or the store was changed",
+            status.conflicts
+        ));
+    }
+    line(text!("\nrobots"));
+    for (index, robot) in matrix.robots.iter().enumerate() {
+        let seeds = 0..matrix.seeds.count;
+        let mazes = 0..matrix.mazes.len();
+        let played = mazes
+            .flat_map(|maze| seeds.clone().map(move |seed| (maze, seed)))
+            .filter(|&(maze, seed)| matrix.get(index, maze, seed).is_some());
+        line(text!("  {}: {} matches", robot.name, played.count()));
+        for (kind, fault) in &robot.faults {
+            line(text!("    {} times {}", fault.count, kind));
+        }
+        for (reason, count) in &robot.unplayed {
+            line(text!("    {} not played: {}", count, reason));
+        }
+    }
+    line(text!("\nsubmissions, the oldest first"));
+    for (name, digest, variant, rejection) in &status.submissions {
+        let digest = digest.to_string();
+        let rejection = rejection.as_ref();
+        let rejection = rejection.map_or_else(String::new, |it| format!(", rejected: {it}"));
+        line(text!(
+            "  {}: {}, variant {}{}",
+            name,
+            &digest[..12],
+            variant,
+            rejection
+        ));
+    }
+    text
+}
