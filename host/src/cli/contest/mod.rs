@@ -1,6 +1,7 @@
 //! `wasmouse contest`: contests that are described by a contest file.
 
 mod check;
+mod commit;
 mod init;
 mod load;
 mod merge;
@@ -9,6 +10,7 @@ mod planned;
 mod progress;
 mod report;
 mod resolve;
+mod reveal;
 mod run;
 mod shard;
 mod status;
@@ -36,6 +38,8 @@ enum Command {
     Status(status::Args),
     Report(report::Args),
     Merge(merge::Args),
+    Commit(commit::Args),
+    Reveal(reveal::Args),
 }
 
 /// Runs the chosen command.
@@ -47,6 +51,8 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         Command::Status(args) => status::run(args),
         Command::Report(args) => report::run(args),
         Command::Merge(args) => merge::run(args),
+        Command::Commit(args) => commit::run(args),
+        Command::Reveal(args) => reveal::run(args),
     }
 }
 
