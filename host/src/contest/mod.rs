@@ -4,6 +4,7 @@
 //! and passes each match to a [`Sink`], in the order of the plan. Standings, fault summaries and
 //! the parts of the [`Results`] document are sinks. Prints nothing and opens no files.
 
+mod benchmark;
 mod best;
 mod difference;
 mod faults;
@@ -20,6 +21,7 @@ mod standings;
 mod tally;
 mod verify;
 
+pub use benchmark::{Benchmark, Margins};
 pub use best::{BestMatch, BestMatches};
 pub use difference::{FieldDifference, differences};
 pub use faults::{FaultGroup, FaultSummary};
