@@ -7,6 +7,7 @@
 mod again;
 mod backtrace;
 mod build;
+mod compare;
 mod completions;
 mod demo;
 mod exit;
@@ -31,6 +32,7 @@ mod setup;
 mod suggest;
 mod terminal;
 mod toolchain;
+mod trial;
 mod verdict;
 mod verify;
 mod watch;
@@ -61,6 +63,7 @@ struct Cli {
 enum Command {
     Demo(demo::Args),
     Run(run::Args),
+    Compare(compare::Args),
     Verify(verify::Args),
     Robots(robot_list::Args),
     Inspect(inspect::Args),
@@ -109,6 +112,7 @@ fn command() -> ExitCode {
     let outcome: Result<Exit, Failure> = match cli.command {
         Command::Demo(args) => demo::run(&args),
         Command::Run(args) => run::run(&args),
+        Command::Compare(args) => compare::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Robots(args) => robot_list::run(&args),
         Command::Inspect(args) => inspect::run(&args),

@@ -6,6 +6,7 @@
 //! types can change without changing what other programs read.
 
 pub mod bundled;
+pub mod comparison;
 pub mod escape;
 pub mod faults;
 pub mod inspection;
@@ -20,6 +21,8 @@ pub mod picture;
 pub mod results_json;
 #[cfg(test)]
 mod sample;
+#[cfg(test)]
+mod sample_matrix;
 mod standings;
 pub mod table;
 pub mod text;

@@ -35,7 +35,7 @@ const RULED: TableStyle =
 
 /// A column, with text on the left or numbers on the right.
 #[derive(Clone, Copy)]
-enum Column {
+pub(super) enum Column {
     Text(&'static str),
     Number(&'static str),
 }
@@ -122,7 +122,8 @@ pub fn matches(
     text(table, layout.width) + "\n"
 }
 
-fn table(columns: &[Column], lines: Lines) -> Table {
+/// A table without rows.
+pub(super) fn table(columns: &[Column], lines: Lines) -> Table {
     let mut table = Table::new();
     table
         .load_style(match lines {
@@ -148,7 +149,7 @@ fn table(columns: &[Column], lines: Lines) -> Table {
 }
 
 /// The table as text, made to fit the width when it is too wide.
-fn text(mut table: Table, width: Option<u16>) -> String {
+pub(super) fn text(mut table: Table, width: Option<u16>) -> String {
     let wide = table.trim_fmt();
     match width {
         Some(width) if wide.lines().any(|line| line.chars().count() > width.into()) => {
