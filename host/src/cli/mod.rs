@@ -29,6 +29,7 @@ mod robot_list;
 mod robots;
 mod run;
 mod setup;
+mod study;
 mod suggest;
 mod terminal;
 mod toolchain;
@@ -64,6 +65,7 @@ enum Command {
     Demo(demo::Args),
     Run(run::Args),
     Compare(compare::Args),
+    Study(study::Args),
     Verify(verify::Args),
     Robots(robot_list::Args),
     Inspect(inspect::Args),
@@ -113,6 +115,7 @@ fn command() -> ExitCode {
         Command::Demo(args) => demo::run(&args),
         Command::Run(args) => run::run(&args),
         Command::Compare(args) => compare::run(&args),
+        Command::Study(args) => study::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Robots(args) => robot_list::run(&args),
         Command::Inspect(args) => inspect::run(&args),

@@ -24,6 +24,7 @@ mod sample;
 #[cfg(test)]
 mod sample_matrix;
 mod standings;
+pub mod study;
 pub mod table;
 pub mod text;
 pub mod verification;
