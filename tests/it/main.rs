@@ -14,6 +14,8 @@ mod cache;
 mod champion;
 /// The command line: output, files, exit codes.
 mod cli;
+/// Comparisons of robots: valid documents, and the figures of the reference page.
+mod comparisons;
 /// The rules: recorded matches and matches written by hand.
 mod conformance;
 /// The core: few dependencies, and compiled for WebAssembly.
