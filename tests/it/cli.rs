@@ -157,6 +157,8 @@ fn help_in_two_lengths() {
     for command in [
         "demo",
         "run",
+        "compare",
+        "study",
         "verify",
         "robots",
         "inspect",
@@ -313,6 +315,54 @@ fn contests_of_bad_input() {
             "run flood flood test_maze_01",
             "run flood --robot missing --maze test_maze_01",
             "run bad test_maze_01",
+        ],
+    );
+}
+
+#[test]
+fn comparisons() {
+    check(
+        "compare",
+        &[
+            "compare flood dfs --mazes gen:tree:12:1..=12 gen:tree:14:1..=5 --ascii",
+            "compare dfs flood random --mazes gen:tree:12:1..=8 --repeat 2 --json",
+            "compare dfs flood --mazes gen:tree:12:1..=12 --require no-worse --ascii",
+            "compare ann=flood bob=flood --maze test_maze_01 --require better",
+            "compare ann=flood bob=flood --maze test_maze_01 --require no-worse --ascii",
+            "compare ahead.wasm trapping.wasm --mazes test_maze_01 tree-16 --ascii",
+            "compare flood wasi.wasm --mazes test_maze_01 --require better --ascii",
+        ],
+    );
+    check(
+        "study",
+        &[
+            "study flood --mazes gen:stretches:12..=14:1..=20 --ascii",
+            "study flood ahead.wasm --mazes gen:stretches:12..=14:1..=4 --json",
+            "study ahead.wasm --mazes test_maze_01",
+            "study wasi.wasm --mazes test_maze_01",
+        ],
+    );
+}
+
+#[test]
+fn comparisons_of_bad_input() {
+    check(
+        "compare-bad-input",
+        &[
+            "compare",
+            "compare flood",
+            "compare flood flod",
+            "compare flood flood",
+            "compare flood dfs:fast",
+            "compare flood dfs --mazes",
+            "compare flood dfs --mazes nothing",
+            "compare flood dfs --mazes small.txt",
+            "compare flood dfs test_maze_01",
+            "compare flood dfs --require worse",
+            "compare flood dfs --seed 18446744073709551615 --repeat 2",
+            "study",
+            "study nothing",
+            "study flood --mazes gen:tree:13:1",
         ],
     );
 }

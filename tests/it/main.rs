@@ -16,6 +16,8 @@ mod champion;
 mod ci;
 /// The command line: output, files, exit codes.
 mod cli;
+/// Comparisons of robots: valid documents, and the figures of the reference page.
+mod comparisons;
 /// The rules: recorded matches and matches written by hand.
 mod conformance;
 /// The core: few dependencies, and compiled for WebAssembly.

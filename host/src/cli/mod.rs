@@ -7,6 +7,7 @@
 mod again;
 mod backtrace;
 mod build;
+mod compare;
 mod completions;
 mod contest;
 mod demo;
@@ -32,8 +33,10 @@ mod robot_list;
 mod robots;
 mod run;
 mod setup;
+mod study;
 mod terminal;
 mod toolchain;
+mod trial;
 mod verdict;
 mod verify;
 mod watch;
@@ -65,6 +68,8 @@ enum Command {
     Demo(demo::Args),
     Run(run::Args),
     Grade(grade::Args),
+    Compare(compare::Args),
+    Study(study::Args),
     Verify(verify::Args),
     /// Run contests that are described by a contest file
     Contest(contest::Args),
@@ -116,6 +121,8 @@ fn command() -> ExitCode {
         Command::Demo(args) => demo::run(&args),
         Command::Run(args) => run::run(&args),
         Command::Grade(args) => grade::run(&args),
+        Command::Compare(args) => compare::run(&args),
+        Command::Study(args) => study::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Contest(args) => contest::run(&args),
         Command::Robots(args) => robot_list::run(&args),

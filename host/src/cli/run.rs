@@ -15,13 +15,13 @@ use super::output::{self, Draft, Existing, Stdout, message};
 use super::page::PageBuilder;
 use super::play::{Pace, play_all};
 use super::robots::{self, RobotSpec};
-use super::setup::{IsolationArgs, SetupArgs, TimeArgs};
+use super::setup::{IsolationArgs, SeedArgs, SetupArgs, TimeArgs};
 use super::verdict::{exit, print_faults};
 use super::{backtrace, fail_under, interrupt, log, reproduce, terminal, watch};
 use crate::contest::grade::Thresholds;
 use crate::contest::{
     ContestInfo, FaultSummary, MatrixBuilder, Plan, Player, RESULTS_VERSION, RecordList, Results,
-    ScoreMatrix, Seeds, Sink, StandingsBuilder, Summary, SummaryBuilder, Tee,
+    ScoreMatrix, Sink, StandingsBuilder, Summary, SummaryBuilder, Tee,
 };
 use crate::report::escape::for_terminal;
 use crate::report::jsonl::JsonLines;
@@ -73,13 +73,8 @@ pub struct Args {
     /// Treat this argument as a maze, whatever its file extension
     #[arg(long = "maze", short, value_name = "MAZE")]
     mazes: Vec<String>,
-    /// First random seed; the robot's only source of randomness
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    seed: u64,
-    /// Play each robot in each maze this many times, with seed, seed + 1, ...
-    #[arg(long, value_name = "COUNT", default_value_t = 1,
-          value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    repeat: u32,
+    #[command(flatten)]
+    seeds: SeedArgs,
     /// Play every match twice, the second time reordered and recompiled, and fail
     /// if results differ
     #[arg(long)]
@@ -148,7 +143,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     let plan = Plan {
         mazes: mazes::distinct(mazes::load(&mazes, legality, bad_files)?),
         entrants: robots::load(&robots, &executor)?,
-        seeds: args.seeds()?,
+        seeds: args.seeds.seeds()?,
         rules: executor.rules().clone(),
     };
     let players = plan.players();
@@ -240,23 +235,6 @@ impl Args {
             None => Failure::usage("no robot specified").hint(robots::unknown_hint("")),
             Some(argument) => Failure::usage(format!("unknown robot `{}`", for_terminal(argument)))
                 .hint(robots::unknown_hint(argument)),
-        }
-    }
-
-    fn seeds(&self) -> Result<Seeds, Failure> {
-        let last = self.seed.checked_add(u64::from(self.repeat - 1));
-        match last {
-            Some(_) => Ok(Seeds {
-                first: self.seed,
-                count: self.repeat,
-            }),
-            None => Err(Failure::usage(format!(
-                "seed {} repeated {} times exceeds the largest seed, {}",
-                self.seed,
-                self.repeat,
-                u64::MAX
-            ))
-            .hint("choose a smaller --seed")),
         }
     }
 

@@ -14,6 +14,8 @@ use wasmouse_engine::{Cache, Control, Isolation, LocalExecutor, MATCH_TIME_MAX};
 use super::failure::Failure;
 use super::interrupt;
 use super::output::message;
+use crate::contest::Seeds;
+use crate::report::text::text;
 
 /// How robots are run.
 #[derive(clap::Args, Debug)]
@@ -55,6 +57,42 @@ pub struct IsolationArgs {
     /// Fail if the operating system cannot sandbox worker processes completely
     #[arg(long, conflicts_with = "trust")]
     require_sandbox: bool,
+}
+
+/// Which random seeds matches have.
+#[derive(clap::Args, Debug)]
+pub struct SeedArgs {
+    /// First random seed; the robot's only source of randomness
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Play each robot in each maze this many times, with seed, seed + 1, ...
+    #[arg(long, value_name = "COUNT", default_value_t = 1,
+          value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    repeat: u32,
+}
+
+impl SeedArgs {
+    /// The seeds.
+    ///
+    /// # Errors
+    ///
+    /// When the last one would exceed the largest seed.
+    pub fn seeds(&self) -> Result<Seeds, Failure> {
+        let last = self.seed.checked_add(u64::from(self.repeat - 1));
+        match last {
+            Some(_) => Ok(Seeds {
+                first: self.seed,
+                count: self.repeat,
+            }),
+            None => Err(Failure::usage(text!(
+                "seed {} repeated {} times exceeds the largest seed, {}",
+                self.seed,
+                self.repeat,
+                u64::MAX
+            ))
+            .hint("choose a smaller --seed")),
+        }
+    }
 }
 
 /// How long robots may take.

@@ -4,6 +4,7 @@
 //! and passes each match to a [`Sink`], in the order of the plan. Standings, fault summaries and
 //! the parts of the [`Results`] document are sinks. Prints nothing and opens no files.
 
+mod benchmark;
 mod best;
 mod commitment;
 pub mod config;
@@ -25,6 +26,7 @@ mod standings;
 mod tally;
 mod verify;
 
+pub use benchmark::{Benchmark, Margins};
 pub use best::{BestMatch, BestMatches};
 pub use commitment::{
     Broken, COMMITMENT_VERSION, Commitment, CommittedSet, OpenedMaze, OpenedSet, Opening,

@@ -6,6 +6,7 @@
 //! types can change without changing what other programs read.
 
 pub mod bundled;
+pub mod comparison;
 pub mod config;
 pub mod contest;
 pub mod contest_check;
@@ -24,7 +25,10 @@ pub mod picture;
 pub mod results_json;
 #[cfg(test)]
 mod sample;
+#[cfg(test)]
+mod sample_matrix;
 mod standings;
+pub mod study;
 pub mod table;
 pub mod text;
 pub mod verification;

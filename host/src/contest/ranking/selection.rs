@@ -16,7 +16,7 @@ pub enum MazeFilter {
 
 impl MazeFilter {
     /// The mazes that it leaves, in their order.
-    pub(super) fn mazes(self, matrix: &ScoreMatrix) -> impl Iterator<Item = usize> {
+    pub(in crate::contest) fn mazes(self, matrix: &ScoreMatrix) -> impl Iterator<Item = usize> {
         let mazes = matrix.mazes.iter().enumerate();
         mazes
             .filter(move |(_, maze)| match self {

@@ -1,5 +1,7 @@
 //! Laws of rankings.
 
+use std::time::{Duration, Instant};
+
 use proptest::prelude::*;
 
 use super::testing::{Sketch, SketchMaze, failed, finished, name, sketches};
@@ -317,5 +319,32 @@ fn nothing_has_no_ranks() {
                 .iter()
                 .all(|it| it.rank.is_none() && it.value.is_none())
         );
+    }
+}
+
+/// Takes a small part of a second when it is optimised; the deadline is for this build on a busy
+/// machine, and fails for anything that does more than a few passes.
+#[test]
+fn a_million_matches_are_ranked_at_once() {
+    let row = |maze: u32| {
+        let robots = (0..5).map(|robot| match (maze * 7 + robot) % 11 {
+            0 => failed(),
+            rest => finished(60 + maze % 90, 20 + rest),
+        });
+        robots.collect()
+    };
+    let mut sketch = Sketch::of_rows(&(0..200).map(row).collect::<Vec<_>>());
+    sketch.seeds = 1000;
+    for maze in &mut sketch.mazes {
+        maze.cells = maze.cells.repeat(1000);
+    }
+    let matrix = sketch.matrix();
+    for method in METHODS {
+        let start = Instant::now();
+        let ranking = rank(&matrix, method);
+        let elapsed = start.elapsed();
+        assert_eq!((ranking.mazes, ranking.lines[0].matches), (200, 200_000));
+        println!("{method:?}: {elapsed:?}");
+        assert!(elapsed < Duration::from_secs(30), "{method:?}: {elapsed:?}");
     }
 }
