@@ -208,7 +208,7 @@ pub(super) fn comparison(view: &View<'_>, compared: &Compared) -> String {
         ),
         _ => (
             format!(
-                "{first} or {second} is undecided: mean difference {}",
+                "{first} and {second}: undecided, mean difference {}",
                 mean(it.difference)
             ),
             interval.map(interval_of),
