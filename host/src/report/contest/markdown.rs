@@ -31,7 +31,7 @@ pub fn markdown(report: &ContestReport<'_>) -> String {
     }
     for part in view.parts() {
         line(&format!("\n## {}\n", heading(&part)));
-        line(&format!("{}.\n", words::scope(&part)));
+        line(&format!("Scope: {}.\n", words::scope(&part)));
         ranking(&view, &part, &mut line);
     }
     let comparisons = view.comparisons();

@@ -12,7 +12,11 @@ mod html;
 mod json;
 mod markdown;
 mod picture;
+#[cfg(test)]
+mod sample;
 mod table;
+#[cfg(test)]
+mod tests;
 mod view;
 mod words;
 

@@ -175,6 +175,12 @@ pub(super) fn fault(line: &FaultLine) -> String {
 pub(super) fn comparison(view: &View<'_>, compared: &Compared) -> String {
     let it = &compared.comparison;
     let (first, second) = (view.name(compared.first), view.name(compared.second));
+    if it.wins + it.losses == 0 {
+        return format!(
+            "{first} and {second} scored equally in every maze ({})",
+            count(it.mazes, "maze")
+        );
+    }
     let thousandths = |value: i64| Mean::fraction(value.into(), 1000).to_string();
     let difference = it.difference.map(Mean::thousandths);
     let interval = it.interval_thousandths;
@@ -202,7 +208,7 @@ pub(super) fn comparison(view: &View<'_>, compared: &Compared) -> String {
         ),
         _ => (
             format!(
-                "{first} or {second} is undecided: mean difference {}",
+                "{first} and {second}: undecided, mean difference {}",
                 mean(it.difference)
             ),
             interval.map(interval_of),
@@ -249,7 +255,7 @@ pub(super) fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::with_capacity(digits.len() * 4 / 3);
     for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index) % 3 == 0 {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
             text.push(',');
         }
         text.push(digit);

@@ -35,9 +35,8 @@ fn ranking(view: &View<'_>, part: &Part<'_>, index: usize) -> Markup {
                     th scope="col" { (value) }
                     th scope="col" { "Finished" }
                     th scope="col" { "Faults" }
-                    th scope="col" { "Median score" }
-                    th scope="col" { "10 % to 90 %" }
-                    th scope="col" { "Mean regret" small { "exploration + speed run, of finished" } }
+                    th scope="col" { "Median score" small { "10 % to 90 %" } }
+                    th scope="col" { "Mean regret" small { "finished: exploration + speed" } }
                     th scope="col" { "Optimal speed runs" }
                     th scope="col" { "Fuel per step" }
                     th scope="col" { "Memory, KiB" }
@@ -50,7 +49,6 @@ fn ranking(view: &View<'_>, part: &Part<'_>, index: usize) -> Markup {
 
 fn row(view: &View<'_>, line: &RankingLine, has_classes: bool) -> Markup {
     let robot = view.robot(line.robot);
-    let percentiles = line.percentiles;
     html! {
         tr {
             td { (words::rank(line)) }
@@ -67,8 +65,12 @@ fn row(view: &View<'_>, line: &RankingLine, has_classes: bool) -> Markup {
                 (line.finished) "/" (line.matches) small { (percent(line.finish_rate)) }
             }
             td { (line.faults) }
-            td { (mean(percentiles.map(|it| it.p50))) }
-            td { (mean(percentiles.map(|it| it.p10))) " to " (mean(percentiles.map(|it| it.p90))) }
+            td data-value=(mean(line.percentiles.map(|it| it.p50))) {
+                (mean(line.percentiles.map(|it| it.p50)))
+                @if let Some(it) = line.percentiles {
+                    small { (it.p10) " to " (it.p90) }
+                }
+            }
             td data-value=(mean(line.mean_regret)) {
                 (mean(line.mean_regret))
                 @if let Some(regret) = line.finished_regret {
