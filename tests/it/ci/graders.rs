@@ -98,7 +98,7 @@ fn component(name: &str) -> &'static [u8] {
     find(name).expect("a bundled robot").component
 }
 
-/// The points of all tests, and all that a student may be shown.
+/// The points of all tests together.
 fn points(results: &Value) -> f64 {
     let tests = results["tests"].as_array().expect("tests");
     tests.iter().filter_map(|it| it["score"].as_f64()).sum()
