@@ -20,6 +20,8 @@ mod cli;
 mod comparisons;
 /// The rules: recorded matches and matches written by hand.
 mod conformance;
+/// Contests: killed, in shards, changed, watched, with hidden mazes.
+mod contest;
 /// Reports of contests: snapshots, the JSON against its schema, the web page against a validator.
 mod contest_report;
 /// The core: few dependencies, and compiled for WebAssembly.

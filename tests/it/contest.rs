@@ -1,0 +1,492 @@
+//! `wasmouse contest`: whatever happens to a contest, its results are the same.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use tempfile::TempDir;
+use wasmouse::store::Store;
+use wasmouse_core::Digest;
+use wasmouse_engine::bundled::find;
+
+use crate::binary::{Ran, ran, stdout_of, wasmouse};
+use crate::hostile::Module;
+use crate::shared::shared;
+
+/// The reports that a contest writes here.
+const REPORTS: [&str; 5] = ["out.html", "out.csv", "out.json", "out.jsonl", "out.md"];
+
+const OUTPUTS: &str = "
+[outputs]
+html = \"out.html\"
+csv = \"out.csv\"
+json = \"out.json\"
+jsonl = \"out.jsonl\"
+markdown = \"out.md\"
+";
+
+/// Several robots in generated mazes of two sets, one of them hidden.
+const SMALL: &str = "
+version = 1
+name = \"small\"
+[[robots]]
+bundled = \"flood\"
+variants = [\"reset\", \"certain\"]
+[[robots]]
+bundled = \"dfs\"
+[[robots]]
+bundled = \"random\"
+[[mazes]]
+set = \"public\"
+paths = [\"test_maze_01\", \"gen:tree:12..=20:1..=20\"]
+[[mazes]]
+set = \"final\"
+hidden = true
+weight = 2
+paths = [\"gen:braid:16:1..=60\"]
+[seeds]
+count = 2
+[run]
+keep_transcripts = \"all\"
+";
+
+fn folder(contest: &str) -> TempDir {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("contest.toml");
+    fs::write(file, format!("{contest}{OUTPUTS}")).expect("a file");
+    folder
+}
+
+fn contest(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = wasmouse();
+    command.current_dir(folder).arg("contest").args(arguments);
+    command
+}
+
+#[track_caller]
+fn succeeds(folder: &Path, arguments: &[&str]) -> Ran {
+    let ran = ran(&mut contest(folder, arguments));
+    assert_eq!(ran.status.code(), Some(0), "{arguments:?}: {}", ran.stderr);
+    ran
+}
+
+fn reports(folder: &Path) -> Vec<Vec<u8>> {
+    let read = |name| fs::read(folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+    REPORTS.map(read).to_vec()
+}
+
+fn content(store: PathBuf) -> Digest {
+    let store = Store::open_read_only(store).expect("a store");
+    store.integrity().expect("a sound store");
+    store.content_digest().expect("its digest")
+}
+
+/// Both folders have the same content and the same reports.
+#[track_caller]
+fn check_same(one: &Path, other: &Path) {
+    assert_eq!(
+        content(one.join("contest.db")),
+        content(other.join("contest.db"))
+    );
+    for ((one, other), name) in reports(one).iter().zip(reports(other)).zip(REPORTS) {
+        assert!(*one == other, "{name} differs");
+    }
+}
+
+/// Kills a contest that many times at moments that are spread over what it takes unbroken, lets
+/// it come to its end, and compares.
+fn check_kills(text: &str, kills: u32, jobs: &str) {
+    let (unbroken, broken) = (folder(text), folder(text));
+    let began = Instant::now();
+    succeeds(unbroken.path(), &["run", jobs]);
+    let whole = began.elapsed();
+    // A linear congruential generator: any moment will do.
+    let mut random = 12345_u32;
+    let mut killed = 0;
+    for _ in 0..kills {
+        random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        let share = f64::from(random >> 8) / f64::from(1 << 24);
+        let mut run = contest(broken.path(), &["run", jobs]);
+        let run = run.stdin(Stdio::null()).stdout(Stdio::null());
+        let mut child = run.stderr(Stdio::null()).spawn().expect("a process");
+        thread::sleep(whole.mul_f64(share / f64::from(kills)));
+        killed += u32::from(child.try_wait().expect("a process").is_none());
+        child.kill().expect("a process that can be killed");
+        child.wait().expect("a process that was killed");
+    }
+    assert!(
+        killed * 2 >= kills,
+        "{killed} of {kills} were still running"
+    );
+    let last = succeeds(broken.path(), &["run", jobs]);
+    check_same(unbroken.path(), broken.path());
+    let again = succeeds(broken.path(), &["run"]);
+    assert!(again.stderr.contains("nothing to play"), "{}", again.stderr);
+    assert_eq!(last.stdout, again.stdout);
+}
+
+#[test]
+fn a_contest_that_is_killed_goes_on_where_it_was() {
+    check_kills(SMALL, 5, "--jobs=2");
+}
+
+/// All reference robots in the official mazes, 100 competition mazes and 400 generated ones.
+#[test]
+#[cfg_attr(
+    not(shared_material),
+    ignore = "needs shared material: set WASMOUSE_SHARED"
+)]
+fn a_large_contest_that_is_killed_ten_times_has_the_same_results() {
+    let mazes = shared().join("mazes");
+    let official = mazes.join("udacity");
+    let competition = fs::read_dir(mazes.join("competition")).expect("a folder");
+    let mut competition: Vec<PathBuf> = competition
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.is_file())
+        .collect();
+    competition.sort();
+    let paths: Vec<String> = competition
+        .iter()
+        .take(100)
+        .map(|path| format!("{path:?}"))
+        .collect();
+    let robots: Vec<String> = wasmouse_engine::bundled::bundled()
+        .iter()
+        .map(|robot| format!("[[robots]]\nbundled = \"{}\"\n", robot.name))
+        .collect();
+    let text = format!(
+        "version = 1\nname = \"large\"\n{}\
+         [[mazes]]\nset = \"official\"\npaths = [{official:?}]\nlenient = true\n\
+         [[mazes]]\nset = \"competition\"\npaths = [{}]\nlenient = true\n\
+         [[mazes]]\nset = \"generated\"\npaths = [\"gen:tree:16:1..=200\", \"gen:braid:16:1..=200\"]\n",
+        robots.concat(),
+        paths.join(", ")
+    );
+    check_kills(&text, 10, "--jobs=2");
+}
+
+#[test]
+fn shards_make_the_same_contest_as_one_run() {
+    let (whole, parts) = (folder(SMALL), folder(SMALL));
+    succeeds(whole.path(), &["run"]);
+    let mut arguments = vec!["merge".to_owned(), "contest.db".to_owned()];
+    for part in 1..=4 {
+        let store = format!("part-{part}.db");
+        let shard = format!("{part}/4");
+        let ran = succeeds(parts.path(), &["run", "--shard", &shard, "--store", &store]);
+        assert!(ran.stderr.contains("contest merge"), "{}", ran.stderr);
+        arguments.push(store);
+    }
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    succeeds(parts.path(), &arguments);
+    let once = content(parts.path().join("contest.db"));
+    let again = succeeds(parts.path(), &arguments);
+    assert!(
+        again.stdout.contains(": 0 matches added"),
+        "{}",
+        again.stdout
+    );
+    assert_eq!(content(parts.path().join("contest.db")), once);
+    let ran = succeeds(parts.path(), &["run"]);
+    assert!(ran.stderr.contains("nothing to play"), "{}", ran.stderr);
+    check_same(whole.path(), parts.path());
+}
+
+#[test]
+fn a_shard_that_was_changed_is_refused_by_name() {
+    let folder = folder(SMALL);
+    for part in ["1/2", "2/2"] {
+        let store = format!("part-{}.db", &part[..1]);
+        succeeds(folder.path(), &["run", "--shard", part, "--store", &store]);
+    }
+    let connection = rusqlite::Connection::open(folder.path().join("part-2.db")).expect("SQLite");
+    let changed = connection.execute(
+        "UPDATE match SET fuel_steps = fuel_steps + 1 WHERE seed = 1",
+        [],
+    );
+    assert!(changed.expect("an update") > 0);
+    drop(connection);
+    let merge = ["merge", "contest.db", "part-1.db", "part-2.db"];
+    let ran = ran(&mut contest(folder.path(), &merge));
+    assert_eq!(ran.status.code(), Some(1), "{}", ran.stderr);
+    assert!(ran.stdout.contains("part-1.db: "), "{}", ran.stdout);
+    assert!(!ran.stdout.contains("part-2.db: "), "{}", ran.stdout);
+    let expected =
+        "error: not merged: store `part-2.db`: its content is not the one that was sealed";
+    assert!(ran.stderr.contains(expected), "{}", ran.stderr);
+    let part = content(folder.path().join("part-1.db"));
+    assert_eq!(
+        content(folder.path().join("contest.db")),
+        part,
+        "nothing of it was merged"
+    );
+}
+
+/// How many matches a store has.
+fn matches(store: &Path) -> i64 {
+    let connection = rusqlite::Connection::open(store).expect("SQLite");
+    let count = connection.query_row("SELECT count(*) FROM match", [], |row| row.get(0));
+    count.expect("a count")
+}
+
+#[test]
+fn what_changes_is_played_again_and_nothing_else() {
+    let text = "
+version = 1
+[[robots]]
+path = \"submissions\"
+[[mazes]]
+set = \"mazes\"
+paths = [\"gen:tree:12:1..=10\"]
+";
+    let folder = folder(text);
+    let submissions = folder.path().join("submissions");
+    fs::create_dir(&submissions).expect("a folder");
+    let submit = |name: &str, robot: &str| {
+        let component = find(robot).expect("a bundled robot").component;
+        fs::write(submissions.join(name), component).expect("a file");
+    };
+    submit("ann.wasm", "flood");
+    submit("bob.wasm", "dfs");
+    succeeds(folder.path(), &["run"]);
+    let store = folder.path().join("contest.db");
+    assert_eq!(matches(&store), 20);
+    submit("bob.wasm", "wall-follower");
+    let ran = succeeds(folder.path(), &["run"]);
+    assert!(ran.stdout.contains("bob "), "{}", ran.stdout);
+    assert_eq!(
+        matches(&store),
+        30,
+        "the new robot of bob; what he had stays"
+    );
+    let file = folder.path().join("contest.toml");
+    let more = fs::read_to_string(&file)
+        .expect("a file")
+        .replace("1..=10", "1..=12");
+    fs::write(&file, more).expect("a file");
+    succeeds(folder.path(), &["run"]);
+    assert_eq!(matches(&store), 34, "two robots in two more mazes");
+    let status = stdout_of(&mut contest(folder.path(), &["status", "--check"]));
+    let of_bob = status
+        .lines()
+        .filter(|line| line.starts_with("  bob: ") && line.contains("variant"));
+    assert_eq!(of_bob.count(), 2, "{status}");
+    assert!(
+        status.contains("24 of 24 matches were played, 0 are left"),
+        "{status}"
+    );
+}
+
+#[test]
+fn a_contest_that_is_interrupted_keeps_what_was_played() {
+    let folder = folder(SMALL);
+    let mut run = contest(folder.path(), &["run"]);
+    let mut child = run
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("a process");
+    thread::sleep(Duration::from_millis(700));
+    interrupt(&child);
+    let code = child.wait().expect("a process").code();
+    if code == Some(130) {
+        let status = stdout_of(&mut contest(folder.path(), &["status", "--check"]));
+        assert!(!status.contains("0 are left to play"), "{status}");
+    } else {
+        assert_eq!(code, Some(0), "it had ended already");
+    }
+    succeeds(folder.path(), &["run"]);
+}
+
+fn interrupt(child: &Child) {
+    let pid = child.id().to_string();
+    let sent = Command::new("kill").args(["-INT", &pid]).status();
+    assert!(sent.expect("a program `kill`").success());
+}
+
+#[test]
+fn robots_are_played_as_they_are_submitted() {
+    let text = "
+version = 1
+[[robots]]
+bundled = \"flood\"
+[[robots]]
+path = \"submissions/*.wasm\"
+[[mazes]]
+set = \"mazes\"
+paths = [\"gen:tree:12:1..=10\"]
+";
+    let folder = folder(text);
+    let submissions = folder.path().join("submissions");
+    fs::create_dir(&submissions).expect("a folder");
+    let mut run = contest(folder.path(), &["run", "--watch"]);
+    let mut child = run
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("a process");
+    let store = folder.path().join("contest.db");
+    let wait_for = |count: i64| {
+        let deadline = Instant::now() + Duration::from_secs(120);
+        while !store.is_file() || matches(&store) < count {
+            assert!(
+                Instant::now() < deadline,
+                "{count} matches were never played"
+            );
+            thread::sleep(Duration::from_millis(200));
+        }
+    };
+    wait_for(10);
+    let dfs = find("dfs").expect("a bundled robot").component;
+    fs::write(submissions.join("ann.wasm"), dfs).expect("a file");
+    wait_for(20);
+    interrupt(&child);
+    assert_eq!(child.wait().expect("a process").code(), Some(130));
+}
+
+/// Robots that wait, loop, trap and are rejected, beside one that plays.
+#[test]
+#[cfg(target_os = "linux")]
+fn bad_robots_do_not_hold_up_a_contest_and_are_explained() {
+    let text = "
+version = 1
+[[robots]]
+path = \"submissions\"
+[[mazes]]
+set = \"mazes\"
+paths = [\"gen:tree:12:1..=10\"]
+[run]
+jobs = 2
+match_time_seconds = 1
+robot_time_seconds = 4
+[rules]
+base = \"udacity\"
+name = \"little fuel\"
+[rules.sandbox]
+step_fuel_max = 200_000_000
+match_fuel_max = 200_000_000
+";
+    let folder = folder(text);
+    let submissions = folder.path().join("submissions");
+    fs::create_dir(&submissions).expect("a folder");
+    let submit = |name: &str, file: &[u8]| {
+        fs::write(submissions.join(name), file).expect("a file");
+    };
+    submit(
+        "good.wasm",
+        find("flood").expect("a bundled robot").component,
+    );
+    submit("waits.wasm", &wasmouse_tests::slow::pointer_chaser());
+    let robot = |next| {
+        Module {
+            next,
+            ..Module::default()
+        }
+        .component()
+    };
+    submit("loops.wasm", &robot("(loop $l (br $l)) unreachable"));
+    submit("traps.wasm", &robot("unreachable"));
+    submit("rejected.wasm", b"not wasm");
+    let began = Instant::now();
+    let ran = ran(&mut contest(folder.path(), &["run"]));
+    assert!(
+        began.elapsed() < Duration::from_secs(300),
+        "{:?}",
+        began.elapsed()
+    );
+    let all = format!("{}{}", ran.stdout, ran.stderr);
+    assert_eq!(ran.status.code(), Some(5), "{all}");
+    let page = fs::read_to_string(folder.path().join("out.html")).expect("a page");
+    let table = &ran.stdout;
+    for report in [&page, table] {
+        assert!(
+            report.contains("waits") && report.contains("did not end"),
+            "{report}"
+        );
+        assert!(
+            report.contains("out-of-") || report.contains("fuel"),
+            "{report}"
+        );
+        assert!(
+            report.contains("traps") && report.contains("unreachable"),
+            "{report}"
+        );
+        assert!(report.contains("rejected"), "{report}");
+    }
+    assert!(table.contains("   1  good "), "{table}");
+    // What was withdrawn is the organiser's to decide, and not played again by itself.
+    let again = succeeds_or_internal(folder.path(), &["run"]);
+    assert!(!again.stderr.contains("panicked"), "{}", again.stderr);
+}
+
+#[cfg(target_os = "linux")]
+fn succeeds_or_internal(folder: &Path, arguments: &[&str]) -> Ran {
+    let ran = ran(&mut contest(folder, arguments));
+    assert!(matches!(ran.status.code(), Some(0 | 5)), "{}", ran.stderr);
+    ran
+}
+
+#[test]
+fn hidden_mazes_are_committed_to_and_revealed() {
+    let folder = folder(SMALL);
+    succeeds(folder.path(), &["commit"]);
+    let twice = ran(&mut contest(folder.path(), &["commit"]));
+    assert_eq!(twice.status.code(), Some(3), "{}", twice.stderr);
+    assert!(twice.stderr.contains("already exists"), "{}", twice.stderr);
+    let files = ["contest.commitment.json", "contest.opening.json"];
+    let reveal = ["reveal", files[0], files[1]];
+    succeeds(folder.path(), &reveal);
+    let with_store = [&reveal[..], &["--store", "contest.db"]].concat();
+    let early = ran(&mut contest(folder.path(), &with_store));
+    assert_eq!(early.status.code(), Some(3), "{}", early.stderr);
+    succeeds(folder.path(), &["run"]);
+    succeeds(folder.path(), &with_store);
+    // Neither the commitment nor the reports say what the mazes are.
+    let commitment = fs::read_to_string(folder.path().join(files[0])).expect("a file");
+    assert!(!commitment.contains("braid"), "{commitment}");
+    for (report, name) in reports(folder.path()).iter().zip(REPORTS) {
+        let text = String::from_utf8_lossy(report);
+        assert!(!text.contains("gen:braid"), "{name} shows a hidden maze");
+    }
+    let path = folder.path().join(files[1]);
+    let opening = fs::read_to_string(&path).expect("a file");
+    fs::write(
+        &path,
+        opening.replace("gen:braid:16:1\"", "gen:braid:16:99\""),
+    )
+    .expect("a file");
+    let changed = ran(&mut contest(folder.path(), &reveal));
+    assert_eq!(changed.status.code(), Some(1), "{}", changed.stderr);
+    assert!(
+        changed.stderr.contains("`final` is not the one"),
+        "{}",
+        changed.stderr
+    );
+    assert!(
+        changed.stderr.contains("`gen:braid:16:99`"),
+        "{}",
+        changed.stderr
+    );
+}
+
+#[test]
+fn what_is_no_store_is_named_and_kept() {
+    let folder = folder(SMALL);
+    let store = folder.path().join("contest.db");
+    for content in ["", "a text"] {
+        fs::write(&store, content).expect("a file");
+        for command in ["run", "status", "report"] {
+            let ran = ran(&mut contest(folder.path(), &[command]));
+            assert_eq!(ran.status.code(), Some(3), "{command}: {}", ran.stderr);
+            assert!(
+                ran.stderr.contains("error: store `contest.db`"),
+                "{}",
+                ran.stderr
+            );
+            assert!(ran.stderr.contains("hint: "), "{}", ran.stderr);
+        }
+        assert_eq!(fs::read_to_string(&store).expect("a file"), content);
+    }
+}
