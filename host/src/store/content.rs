@@ -24,7 +24,7 @@ impl Store {
     ///
     /// When the store cannot be read.
     pub fn content_digest(&self) -> Result<Digest, StoreError> {
-        self.read(|connection| content_digest(connection))
+        self.read(content_digest)
     }
 
     /// Seals the store: writes its content digest into it, because a run has ended. Whoever
@@ -51,7 +51,7 @@ impl Store {
     ///
     /// When the store cannot be read.
     pub fn sealed(&self) -> Result<Option<Digest>, StoreError> {
-        self.read(|connection| sealed(connection))
+        self.read(sealed)
     }
 }
 

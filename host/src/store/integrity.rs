@@ -43,7 +43,7 @@ impl Store {
     ///
     /// With what is wrong, or when the store cannot be read.
     pub fn integrity(&self) -> Result<Integrity, StoreError> {
-        self.read(|connection| check(connection))
+        self.read(check)
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod check;
 mod commit;
+mod failures;
 mod init;
 mod load;
 mod merge;
@@ -18,10 +19,6 @@ mod watch;
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::output::message;
-use crate::contest::{NotAdmitted, ScoreMatrix};
-use crate::report::text::text;
-use crate::store::StoreError;
 
 /// Arguments of `wasmouse contest`.
 #[derive(clap::Args)]
@@ -53,49 +50,5 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         Command::Merge(args) => merge::run(args),
         Command::Commit(args) => commit::run(args),
         Command::Reveal(args) => reveal::run(args),
-    }
-}
-
-/// Says on stderr what was not played.
-fn print_unplayed(matrix: &ScoreMatrix) {
-    for robot in &matrix.robots {
-        if let Some(NotAdmitted::Failed(reason)) = &robot.not_admitted {
-            message!("error: `{}` could not be admitted: {}", robot.name, reason);
-        }
-        for (reason, matches) in &robot.unplayed {
-            message!(
-                "`{}`: {} matches were not played: {}",
-                robot.name,
-                matches,
-                reason
-            );
-        }
-    }
-}
-
-/// Prints what to do about the error of a store.
-fn print_hint(error: &StoreError) {
-    if let Some(hint) = error.hint() {
-        message!("  hint: {}", hint);
-    }
-}
-
-/// The failure of a store.
-fn store_failure(error: StoreError) -> Failure {
-    store_failure_of(&error)
-}
-
-fn store_failure_of(error: &StoreError) -> Failure {
-    use crate::store::StoreErrorKind as Kind;
-    let message = text!("{}", error);
-    let failure = match &error.kind {
-        Kind::Full | Kind::Io(_) | Kind::Sqlite(_) | Kind::Conflict { .. } => {
-            Failure::internal(message)
-        }
-        _ => Failure::input(message),
-    };
-    match error.hint() {
-        Some(hint) => failure.hint(hint),
-        None => failure,
     }
 }

@@ -11,10 +11,10 @@ use wasmouse_engine::admission::Rejection;
 use wasmouse_engine::{AdmissionLimits, engine_id};
 
 use super::super::failure::Failure;
+use super::failures::store_failure;
 use super::load::ContestFolder;
 use super::resolve::{self, Resolved, ResolvedRobot};
 use super::shard::Shard;
-use super::store_failure;
 use crate::contest::{Entrant, MatrixRobot, MazeSet, MazeSource, NotAdmitted, ScoreMatrix, Seeds};
 use crate::store::{Cause, MatchKeys, MatrixRequest, Missing, Store, StoreError};
 

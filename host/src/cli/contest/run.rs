@@ -13,13 +13,13 @@ use super::super::interrupt;
 use super::super::output::message;
 use super::super::robots;
 use super::super::setup::{EngineArgs, IsolationArgs, TimeArgs};
+use super::failures::{print_unplayed, store_failure, store_failure_of};
 use super::load::FILE_NAME;
 use super::planned::{Left, PlannedContest};
 use super::progress::Progress;
 use super::report;
 use super::shard::Shard;
 use super::watch::Watch;
-use super::{print_unplayed, store_failure, store_failure_of};
 use crate::contest::{
     self, ContestMatch, Ended, Entrant, KeepTranscripts, NotAdmitted, Options, Plan,
     RejectionEntry, RunError, Sink,
