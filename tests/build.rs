@@ -1,9 +1,5 @@
-//! Says what is there that does not belong to the repository: tests that need something else
-//! are reported as ignored.
-//!
-//! - `cfg(shared_material)`: the shared mazes and recorded matches.
-//! - `cfg(html_validator)`: the program `html-validate` of the npm package of that name, in
-//!   `WASMOUSE_HTML_VALIDATE` or in `PATH`.
+//! Sets `cfg(shared_material)` where the shared mazes and recorded matches are available, which do
+//! not belong to the repository. Tests that need them are reported as ignored elsewhere.
 
 use std::env;
 use std::path::PathBuf;
@@ -21,23 +17,5 @@ fn main() {
     if folder.is_dir() {
         println!("cargo::rustc-cfg=shared_material");
         println!("cargo::rustc-env=SHARED_MATERIAL={}", folder.display());
-    }
-    find_html_validator();
-}
-
-fn find_html_validator() {
-    println!("cargo::rustc-check-cfg=cfg(html_validator)");
-    println!("cargo::rerun-if-env-changed=WASMOUSE_HTML_VALIDATE");
-    // Not when `PATH` changes: it differs between terminals, and tests take long to build.
-    let program = env::var_os("WASMOUSE_HTML_VALIDATE")
-        .map(PathBuf::from)
-        .or_else(|| {
-            let path = env::var_os("PATH")?;
-            let programs = env::split_paths(&path).map(|folder| folder.join("html-validate"));
-            programs.into_iter().find(|program| program.is_file())
-        });
-    if let Some(program) = program {
-        println!("cargo::rustc-cfg=html_validator");
-        println!("cargo::rustc-env=HTML_VALIDATOR={}", program.display());
     }
 }

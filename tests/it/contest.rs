@@ -202,6 +202,9 @@ fn a_shard_that_was_changed_is_refused_by_name() {
         succeeds(folder.path(), &["run", "--shard", part, "--store", &store]);
     }
     let connection = rusqlite::Connection::open(folder.path().join("part-2.db")).expect("SQLite");
+    connection
+        .execute_batch("DROP TRIGGER match_is_final")
+        .expect("a trigger");
     let changed = connection.execute(
         "UPDATE match SET fuel_steps = fuel_steps + 1 WHERE seed = 1",
         [],
@@ -293,7 +296,7 @@ fn a_contest_that_is_interrupted_keeps_what_was_played() {
     let code = child.wait().expect("a process").code();
     if code == Some(130) {
         let status = stdout_of(&mut contest(folder.path(), &["status", "--check"]));
-        assert!(!status.contains("0 are left to play"), "{status}");
+        assert!(!status.contains(", 0 are left to play"), "{status}");
     } else {
         assert_eq!(code, Some(0), "it had ended already");
     }
@@ -361,12 +364,6 @@ paths = [\"gen:tree:12:1..=10\"]
 jobs = 2
 match_time_seconds = 1
 robot_time_seconds = 4
-[rules]
-base = \"udacity\"
-name = \"little fuel\"
-[rules.sandbox]
-step_fuel_max = 200_000_000
-match_fuel_max = 200_000_000
 ";
     let folder = folder(text);
     let submissions = folder.path().join("submissions");

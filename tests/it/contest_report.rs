@@ -2,10 +2,11 @@
 //! against a validator of HTML.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::sync::Arc;
 
 use insta::{Settings, assert_snapshot};
-use jsonschema::Validator;
+use jsonschema::Validator as JsonValidator;
 use serde_json::Value;
 use wasmouse::contest::{
     MatchScore, MatrixFault, MatrixMaze, MatrixRobot, MazeSet, Method, NotAdmitted, Outcome,
@@ -22,6 +23,7 @@ use wasmouse_core::journal::JournalCounts;
 use wasmouse_core::maze::{Cell, Maze, Turn, Walls};
 use wasmouse_core::record::{EngineId, FuelUse, MatchKey, MatchRecord, RecordVersion, Transcript};
 use wasmouse_engine::admission::Rejection;
+use xtask::validators::Validator;
 
 const SCHEMA: &str = include_str!("../../host/schema/contest-report.schema.json");
 
@@ -275,7 +277,7 @@ fn every_format_is_as_it_was() {
     });
 }
 
-fn validator() -> Validator {
+fn validator() -> JsonValidator {
     let schema: Value = serde_json::from_str(SCHEMA).expect("the schema is JSON");
     jsonschema::draft202012::meta::validate(&schema).expect("the schema is a schema");
     jsonschema::draft202012::new(&schema).expect("the schema can be used")
@@ -367,13 +369,11 @@ fn a_page_of_many_matches_is_small() {
 }
 
 #[test]
-#[cfg_attr(
-    not(html_validator),
-    ignore = "needs html-validate: npm install -g html-validate, or set WASMOUSE_HTML_VALIDATE"
-)]
 fn pages_are_valid_html() {
-    let program = option_env!("HTML_VALIDATOR");
-    let program = program.expect("the build found it");
+    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
+    let Some(program) = Validator::Html.find(root, "pages_are_valid_html") else {
+        return;
+    };
     let folder = tempfile::tempdir().expect("a temporary folder");
     let contest = Contest::new(Method::MeanScore);
     let empty = ScoreMatrix::new(Ruleset::default(), contest.matrix.seeds, Vec::new());
@@ -389,7 +389,7 @@ fn pages_are_valid_html() {
     let rules = r#"{"root": true, "extends": ["html-validate:recommended", "html-validate:a11y"]}"#;
     std::fs::write(folder.path().join(".htmlvalidate.json"), rules).expect("a file");
     let validate = |file: &str| {
-        let mut command = std::process::Command::new(program);
+        let mut command = std::process::Command::new(&program);
         let output = command.arg(file).current_dir(folder.path()).output();
         let output = output.expect("the validator can be started");
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
