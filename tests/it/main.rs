@@ -16,6 +16,8 @@ mod champion;
 mod cli;
 /// The rules: recorded matches and matches written by hand.
 mod conformance;
+/// Contest files: mistakes, the schema, the template, the documentation.
+mod contest_file;
 /// The core: few dependencies, and compiled for WebAssembly.
 mod core_crate;
 /// The hostile corpus, in this process.

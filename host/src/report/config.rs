@@ -19,7 +19,7 @@ use crate::contest::config::{ConfigError, Excerpt};
 ///   |     ^^^");
 /// ```
 pub fn config_error(file: &Text, error: &ConfigError) -> Text {
-    let Excerpt { text, marked } = &error.excerpt;
+    let Excerpt { text, marked } = &*error.excerpt;
     let message = text!(
         "{}, line {}, column {}: {}",
         file,

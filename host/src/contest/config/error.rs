@@ -27,7 +27,7 @@ pub struct ConfigError {
     /// What to do about it.
     pub hint: Option<String>,
     /// The line of the file.
-    pub excerpt: Excerpt,
+    pub excerpt: Box<Excerpt>,
 }
 
 /// A line of a configuration file, or the part of it around an error.
@@ -54,7 +54,7 @@ impl ConfigError {
             key,
             message: shortened(message),
             hint: None,
-            excerpt: Excerpt::new(text, marked),
+            excerpt: Box::new(Excerpt::new(text, marked)),
         }
     }
 
