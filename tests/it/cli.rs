@@ -242,7 +242,22 @@ fn contest_files() {
     )
     .expect("a file");
     fs::create_dir(submissions.join("bob")).expect("a folder");
-    check_in(&folder, "contest-submissions", &["contest check spring"]);
+    fs::copy(
+        folder.path().join("core.wasm"),
+        submissions.join("bob/robot.wasm"),
+    )
+    .expect("a file");
+    let folders = "version = 1\n[[robots]]\npath = \"submissions/*/robot.wasm\"\n\
+                   names_from = \"folder\"\nvariants = [0, 3]\n\
+                   [[robots]]\npath = \"submissions/ann.wasm\"\nname = \"Ann's\"\n\
+                   [[robots]]\npath = \"submissions\"\n\
+                   [[mazes]]\nset = \"a\"\npaths = [\"tree-16\"]\n";
+    fs::write(folder.path().join("spring/folders.toml"), folders).expect("a file");
+    check_in(
+        &folder,
+        "contest-submissions",
+        &["contest check spring", "contest check spring/folders.toml"],
+    );
 }
 
 #[test]

@@ -22,6 +22,8 @@ mod comparisons;
 mod conformance;
 /// Contests: killed, in shards, changed, watched, with hidden mazes.
 mod contest;
+/// Contest files: mistakes, the schema, the template, the documentation.
+mod contest_file;
 /// Reports of contests: snapshots, the JSON against its schema, the web page against a validator.
 mod contest_report;
 /// The core: few dependencies, and compiled for WebAssembly.

@@ -4,7 +4,7 @@
 //! read, parsed and, unless the user says `--lenient`, checked against the contest rules.
 
 use std::collections::hash_map::Entry;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -154,42 +154,45 @@ pub fn load_requests(
 
 /// The mazes without those that are given twice: their matches would be the same matches.
 pub fn distinct(mazes: Vec<MazeSource>) -> Vec<MazeSource> {
-    let mut seen = HashMap::new();
-    let is_new = |maze: &MazeSource| match seen.entry(Identity::of(maze)) {
-        Entry::Occupied(twin) => {
-            let twin: &String = twin.get();
+    let mut seen = Seen::default();
+    let is_new = |maze: &MazeSource| {
+        let twin = seen.twin(maze);
+        if let Some(twin) = &twin {
             message!(
                 "warning: skipped `{}`, which is the same maze as `{}`",
                 maze.name(),
                 twin
             );
-            false
         }
-        Entry::Vacant(place) => {
-            place.insert(maze.name());
-            true
-        }
+        twin.is_none()
     };
     let mut mazes = mazes;
     mazes.retain(is_new);
     mazes
 }
 
-/// What tells mazes apart without generating them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Identity {
-    /// The digest of one that was read.
-    Loaded(Digest),
-    /// The specification of one that is generated.
-    Generated(GeneratedMaze),
+/// The mazes of a contest by now.
+#[derive(Default)]
+struct Seen {
+    loaded: HashMap<Digest, String>,
+    generated: HashSet<GeneratedMaze>,
 }
 
-impl Identity {
-    /// The identity of a maze.
-    pub fn of(maze: &MazeSource) -> Self {
+impl Seen {
+    /// The name under which the same maze was given before.
+    fn twin(&mut self, maze: &MazeSource) -> Option<String> {
         match maze {
-            MazeSource::Loaded { maze, .. } => Self::Loaded(maze.digest()),
-            MazeSource::Generated(maze) => Self::Generated(*maze),
+            MazeSource::Loaded { name, maze } => match self.loaded.entry(maze.digest()) {
+                Entry::Occupied(twin) => Some(twin.get().clone()),
+                Entry::Vacant(place) => {
+                    place.insert(name.clone());
+                    None
+                }
+            },
+            MazeSource::Generated(maze) => {
+                let is_new = self.generated.insert(*maze);
+                (!is_new).then(|| maze.to_string())
+            }
         }
     }
 }

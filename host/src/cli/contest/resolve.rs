@@ -5,18 +5,19 @@ use std::collections::hash_map::Entry;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use wasmouse_core::Digest;
 use wasmouse_core::game::Ruleset;
 use wasmouse_core::maze::bundled as bundled_mazes;
 use wasmouse_core::maze::generate::GenSpec;
 
 use super::super::build;
 use super::super::failure::Failure;
-use super::super::mazes::{self, BadFiles, Identity, Legality, Request, Source};
+use super::super::mazes::{self, BadFiles, Legality, Request, Source};
 use super::super::output::message;
 use super::super::pattern;
 use super::super::robots::{self, RobotSpec};
 use super::load::ContestFolder;
-use crate::contest::config::FilePath;
+use crate::contest::config::{FilePath, suggestion};
 use crate::contest::{MazeSet, MazeSource, NamesFrom, RobotSource, RobotsEntry, Seeds};
 use crate::report::text::{Text, text};
 
@@ -198,10 +199,15 @@ fn robot_files(
 ///
 /// When a path names nothing, or a maze cannot be used or is in two sets.
 pub fn all_mazes(contest: &ContestFolder) -> Result<Vec<ResolvedSet>, Failure> {
+    let mut sets = Vec::new();
     let mut requests = Vec::new();
-    let mut keys = Vec::new();
+    // Set and path of each.
+    let mut origins = Vec::new();
     for (set, entry) in contest.file.mazes.iter().enumerate() {
         for (index, path) in entry.paths.iter().enumerate() {
+            if GenSpec::is_meant_by(path.as_str()) {
+                continue;
+            }
             let key = format!("mazes[{set}].paths[{index}]");
             for source in maze_sources(contest, path, &key)? {
                 requests.push(Request {
@@ -209,58 +215,82 @@ pub fn all_mazes(contest: &ContestFolder) -> Result<Vec<ResolvedSet>, Failure> {
                     rules: Legality::from_flag(entry.lenient),
                     bad_files: BadFiles::Fail,
                 });
-                keys.push((set, index));
+                origins.push((set, index));
             }
         }
     }
     let hint = "`lenient = true` in the set accepts it";
     let loaded = mazes::load_requests(&requests, hint)?;
-    let mut sets: Vec<ResolvedSet> = contest
-        .file
-        .mazes
-        .iter()
-        .map(|entry| ResolvedSet {
-            set: entry.maze_set(),
-            mazes: Vec::new(),
-        })
-        .collect();
-    // Sets and positions in them.
-    let mut seen: HashMap<Identity, (usize, usize)> = HashMap::new();
-    let loaded = loaded.into_iter().zip(keys);
-    for (maze, (set, index)) in loaded.filter_map(|(maze, key)| Some((maze?, key))) {
-        let twin = match seen.entry(Identity::of(&maze)) {
-            Entry::Vacant(place) => {
-                place.insert((set, sets[set].mazes.len()));
-                sets[set].mazes.push(maze);
-                continue;
+    let mut loaded = loaded.into_iter().zip(origins).peekable();
+    let mut seen = Seen::default();
+    for (set, entry) in contest.file.mazes.iter().enumerate() {
+        let mut mazes = Vec::new();
+        for (index, path) in entry.paths.iter().enumerate() {
+            // No two paths generate the same maze: the parser has seen to that.
+            if GenSpec::is_meant_by(path.as_str()) {
+                let generated = mazes::specification(path.as_str())?.expand();
+                mazes.extend(generated.map(MazeSource::Generated));
             }
-            Entry::Occupied(twin) => *twin.get(),
-        };
-        let (other, position) = twin;
-        let other_name = sets[other].mazes[position].name();
-        if other == set {
-            message!(
-                "warning: skipped `{}`, which is the same maze as `{}`",
-                maze.name(),
-                other_name
-            );
-            continue;
+            while let Some((maze, _)) = loaded.next_if(|(_, origin)| *origin == (set, index)) {
+                let Some(maze) = maze else { continue };
+                if seen.is_new(&maze, (set, index), contest)? {
+                    mazes.push(maze);
+                }
+            }
         }
-        let message = text!(
-            "maze `{}` of set `{}` is the same as `{}` of set `{}`",
-            maze.name(),
-            sets[set].set.name,
-            other_name,
-            sets[other].set.name
-        );
-        let key = format!("mazes[{set}].paths[{index}]");
-        let failure = contest.failure_at(&key, message);
-        return Err(failure.hint("a maze can be in one set only"));
+        sets.push(ResolvedSet {
+            set: entry.maze_set(),
+            mazes,
+        });
     }
     Ok(sets)
 }
 
-/// The mazes that a path of a set names.
+/// The mazes that were read, with set and name of each.
+#[derive(Default)]
+struct Seen(HashMap<Digest, (usize, String)>);
+
+impl Seen {
+    /// Whether a maze of a path of a set is none of those before. It may be one of its own set.
+    fn is_new(
+        &mut self,
+        maze: &MazeSource,
+        (set, index): (usize, usize),
+        contest: &ContestFolder,
+    ) -> Result<bool, Failure> {
+        let MazeSource::Loaded { name, maze } = maze else {
+            return Ok(true);
+        };
+        let (other, twin) = match self.0.entry(maze.digest()) {
+            Entry::Vacant(place) => {
+                place.insert((set, name.clone()));
+                return Ok(true);
+            }
+            Entry::Occupied(twin) => twin.get().clone(),
+        };
+        if other == set {
+            message!(
+                "warning: skipped `{}`, which is the same maze as `{}`",
+                name,
+                twin
+            );
+            return Ok(false);
+        }
+        let sets = [set, other].map(|it| contest.file.mazes[it].set.as_str());
+        let message = text!(
+            "maze `{}` of set `{}` is the same as `{}` of set `{}`",
+            name,
+            sets[0],
+            twin,
+            sets[1]
+        );
+        let key = format!("mazes[{set}].paths[{index}]");
+        let failure = contest.failure_at(&key, message);
+        Err(failure.hint("a maze can be in one set only"))
+    }
+}
+
+/// The mazes that a path of a set names, if it is no specification.
 fn maze_sources(
     contest: &ContestFolder,
     path: &FilePath,
@@ -269,10 +299,6 @@ fn maze_sources(
     let text = path.as_str();
     if let Some(maze) = bundled_mazes().iter().find(|maze| maze.name == text) {
         return Ok(vec![Source::Bundled(maze)]);
-    }
-    if GenSpec::is_meant_by(text) {
-        let mazes = mazes::specification(text)?.expand();
-        return Ok(mazes.map(Source::Generated).collect());
     }
     if path.is_pattern() {
         let is_maze = |it: &Path| mazes::is_maze_file(it) && it.is_file();
@@ -285,7 +311,7 @@ fn maze_sources(
     }
     mazes::at_path(&contest.join(path))?.ok_or_else(|| {
         let names = bundled_mazes().iter().map(|maze| maze.name);
-        let hint = crate::contest::config::suggestion(text, names)
+        let hint = suggestion(text, names)
             .unwrap_or_else(|| "paths are relative to the folder of the contest file".to_owned());
         let message = text!("maze `{}` does not exist", text);
         contest.failure_at(key, message).hint(hint)

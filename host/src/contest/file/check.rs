@@ -1,6 +1,7 @@
 //! What has to hold between the values of a contest file.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
+use std::ops::RangeInclusive;
 use std::path::{Component, Path, PathBuf};
 
 use serde::Deserialize;
@@ -85,7 +86,9 @@ fn robots(file: &ContestFile, document: &Document<'_>) -> Checked {
         let error = document.error("robots", "the contest has no robots");
         return Err(error.hint("add `[[robots]]` with a `path` or a `bundled` robot"));
     }
-    let (mut names, mut players) = (Seen::default(), Seen::default());
+    let mut names = Seen::default();
+    // A folder may have the name of a bundled robot.
+    let (mut in_files, mut by_name) = (Seen::default(), Seen::default());
     for (index, entry) in file.robots.iter().enumerate() {
         let key = format!("robots[{index}]");
         let source = robot_source(entry, &key, document)?;
@@ -94,9 +97,9 @@ fn robots(file: &ContestFile, document: &Document<'_>) -> Checked {
             names.note("name", name.as_str(), &format!("{key}.name"), document)?;
         }
         class(entry, &key, file, document)?;
-        let (field, given) = match source {
-            RobotSource::Path(path) => ("path", path.as_str()),
-            RobotSource::Bundled(robot) => ("bundled", robot.name),
+        let (field, given, players) = match source {
+            RobotSource::Path(path) => ("path", path.as_str(), &mut in_files),
+            RobotSource::Bundled(robot) => ("bundled", robot.name, &mut by_name),
         };
         for variant in entry.variant_numbers() {
             let player = match variant {
@@ -221,6 +224,7 @@ fn mazes(file: &ContestFile, document: &Document<'_>) -> Checked {
         return Err(error.hint("add `[[mazes]]` with a `set` and `paths`"));
     }
     let (mut sets, mut paths) = (Seen::default(), Seen::default());
+    let mut generated = Generated::default();
     for (index, entry) in file.mazes.iter().enumerate() {
         let key = format!("mazes[{index}]");
         sets.note("set", entry.set.as_str(), &format!("{key}.set"), document)?;
@@ -231,21 +235,60 @@ fn mazes(file: &ContestFile, document: &Document<'_>) -> Checked {
         for (index, path) in entry.paths.iter().enumerate() {
             let key = format!("{key}.paths[{index}]");
             let text = path.as_str();
-            let plain = plain(path);
-            paths.note("maze", &plain, &key, document)?;
+            paths.note("maze", text, &key, document)?;
             if text == "-" {
                 let message = format!("`{key}`: a contest cannot read standard input");
                 let error = document.error(&key, message);
                 return Err(error.hint("name a file"));
             }
-            if GenSpec::is_meant_by(text)
-                && let Err(error) = text.parse::<GenSpec>()
-            {
-                return Err(document.error(&key, format!("`{key}`: {error}")));
+            if GenSpec::is_meant_by(text) {
+                let spec = text.parse::<GenSpec>();
+                let spec =
+                    spec.map_err(|error| document.error(&key, format!("`{key}`: {error}")))?;
+                generated.add(&spec, key);
             }
         }
     }
-    Ok(())
+    generated.check(document)
+}
+
+/// The generated mazes of a contest by kind and size, as ranges of seeds with their keys.
+#[derive(Default)]
+struct Generated(BTreeMap<(String, u8), Vec<KeyedSeeds>>);
+
+type KeyedSeeds = (RangeInclusive<u64>, String);
+
+impl Generated {
+    /// Notes what a specification at a key generates.
+    fn add(&mut self, spec: &GenSpec, key: String) {
+        for dimension in spec.dimensions() {
+            let ranges = self.0.entry((spec.kind().to_string(), dimension));
+            let ranges = ranges.or_default();
+            ranges.push((spec.seeds().clone(), key.clone()));
+        }
+    }
+
+    /// Checks that no maze is generated twice.
+    fn check(mut self, document: &Document<'_>) -> Checked {
+        for ((kind, dimension), ranges) in &mut self.0 {
+            ranges.sort_by_key(|(seeds, _)| *seeds.start());
+            for pair in ranges.windows(2) {
+                let [(first, before), (second, key)] = pair else {
+                    continue;
+                };
+                if second.start() > first.end() {
+                    continue;
+                }
+                let seed = second.start();
+                let message =
+                    format!("`{key}`: maze `gen:{kind}:{dimension}:{seed}` is given twice");
+                let line = document.line(before);
+                let error = document.error(key, message);
+                return Err(error.hint(format!("`{before}` in line {line} has it")));
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Checks the seeds of any configuration file.
@@ -277,7 +320,7 @@ pub(in crate::contest) fn rules(rules: &RulesEntry, document: &Document<'_>) -> 
     let is_changed = rules.game != GameEntry::default() || rules.sandbox != SandboxEntry::default();
     match &rules.name {
         None if is_changed || rules.version.is_some() => {
-            let message = "missing key `name` in `rules`: rules of their own have a name";
+            let message = "missing key `name` in `rules`, for rules that are not those of `base`";
             let hint = "for example: name = \"my rules\"";
             Err(document.error("rules", message).hint(hint))
         }

@@ -91,14 +91,14 @@ impl GenSpec {
             seeds,
         };
         let bounds = [spec.dimensions.start(), spec.dimensions.end()];
-        if !bounds.into_iter().all(is_valid) || spec.even_dimensions().next().is_none() {
+        if !bounds.into_iter().all(is_valid) || spec.dimensions().next().is_none() {
             return Err(part("size", SIZES, range_text(&spec.dimensions)));
         }
         if spec.seeds.is_empty() {
             return Err(part("seed", SEEDS, range_text(&spec.seeds)));
         }
         let seeds = u128::from(spec.seeds.end() - spec.seeds.start()) + 1;
-        let count = seeds * spec.even_dimensions().count() as u128;
+        let count = seeds * spec.dimensions().count() as u128;
         if count > u128::from(GENERATED_MAX) {
             return Err(GenSpecError::TooMany { count });
         }
@@ -115,26 +115,32 @@ impl GenSpec {
         self.kind
     }
 
+    /// The sizes of the mazes, in cells along a side: even ones, in ascending order.
+    pub fn dimensions(&self) -> impl Iterator<Item = u8> + use<> {
+        self.dimensions.clone().filter(|n| n.is_multiple_of(2))
+    }
+
+    /// The seeds of the mazes of each size.
+    pub const fn seeds(&self) -> &RangeInclusive<u64> {
+        &self.seeds
+    }
+
     /// The number of mazes. Range: 1 to [`GENERATED_MAX`].
     pub fn count(&self) -> u64 {
-        let dimensions = self.even_dimensions().count() as u64;
+        let dimensions = self.dimensions().count() as u64;
         dimensions * (self.seeds.end() - self.seeds.start() + 1)
     }
 
     /// The mazes, by size and then by seed, not generated yet.
     pub fn expand(&self) -> impl Iterator<Item = GeneratedMaze> + use<> {
         let Self { kind, seeds, .. } = self.clone();
-        self.even_dimensions().flat_map(move |dimension| {
+        self.dimensions().flat_map(move |dimension| {
             seeds.clone().map(move |seed| GeneratedMaze {
                 kind,
                 dimension,
                 seed,
             })
         })
-    }
-
-    fn even_dimensions(&self) -> impl Iterator<Item = u8> + use<> {
-        self.dimensions.clone().filter(|n| n.is_multiple_of(2))
     }
 }
 
