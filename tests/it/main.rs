@@ -93,6 +93,8 @@ mod slow;
 mod small_hosts;
 /// Optimal paths and the oracle scores of the official mazes.
 mod solver;
+/// Stores whose writers are killed, and two writers.
+mod store;
 /// Results on standard output, and pipes that close.
 mod streams;
 /// Pipes, links and hostile names in folders of submissions.

@@ -1,5 +1,5 @@
 //! What the end-to-end tests in `it/` and the program `corpus` share: the `wasmouse` binary,
-//! small robots in text, the hostile corpus, and the generator of the SDK's bindings.
+//! small robots in text, the hostile corpus, contests for stores, and the generator of the SDK's bindings.
 
 pub mod binary;
 pub mod bindings;
@@ -10,4 +10,5 @@ pub mod fuzz;
 pub mod module;
 pub mod program;
 pub mod slow;
+pub mod stored;
 pub mod wasm_target;

@@ -12,6 +12,7 @@ mod native;
 mod pairs;
 mod process;
 mod stage;
+mod store;
 mod targets;
 
 use criterion::Criterion;
@@ -22,6 +23,7 @@ fn main() {
     boundary::bench(&mut criterion);
     matches::bench(&mut criterion);
     contest::bench(&mut criterion);
+    store::bench(&mut criterion);
     criterion.final_summary();
     if targets::are_wanted("targets") {
         targets::print();

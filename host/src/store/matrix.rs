@@ -7,12 +7,13 @@ use wasmouse_core::Digest;
 use wasmouse_core::game::{Ruleset, Steps};
 use wasmouse_core::record::MatchRecord;
 
-use super::columns::{self, BUDGET_USED_UP, FAULT, FINISHED, GOAL_REACHED, SELECT_RECORD};
+use super::columns::{self, BUDGET_USED_UP, FAULT, FINISHED, GOAL_REACHED};
 use super::error::{StoreError, StoreErrorKind};
 use super::ids::{self, Address, Table, digest_at};
 use super::keys::{MatchKeys, positions};
 use super::open::Store;
 use super::unplayed;
+use super::writer::find_record;
 use crate::contest::{
     MatchScore, MatrixFault, MatrixMaze, MatrixRobot, MazeSet, Outcome, ScoreMatrix, Seeds,
 };
@@ -190,7 +191,7 @@ impl Filling<'_> {
             }
         }
         for (kind, faults) in faults {
-            let first = self.record(matrix, &faults)?;
+            let first = self.record(matrix, &keys, &faults)?;
             let count = faults.count;
             let fault = MatrixFault { count, first };
             matrix.robots[robot].faults.insert(kind, fault);
@@ -207,27 +208,17 @@ impl Filling<'_> {
     }
 
     /// The first record of some faults.
-    fn record(&self, matrix: &ScoreMatrix, faults: &Faults) -> Result<MatchRecord, StoreErrorKind> {
-        let Faults { at, first, .. } = faults;
-        let robot = ids::all(self.connection, Table::Robot)?;
-        let robot = robot.into_iter().find(|(id, _)| *id == at.robot);
-        let (_, robot) = robot.ok_or_else(|| StoreErrorKind::Unknown("robot".to_owned()))?;
-        let players = [(robot, at.variant)];
-        let keys = MatchKeys {
-            engine: self.engine,
-            rules: matrix.rules.digest(),
-            players: &players,
-            mazes: &[matrix.mazes[first.0].digest],
-            seeds: matrix.seeds,
-        };
-        let key = keys.key(0, 0, first.1);
-        let mut statement = self.connection.prepare_cached(SELECT_RECORD)?;
-        let mut rows = statement.query(params![
-            at.engine, at.rules, at.robot, at.variant, at.maze, at.seed,
-        ])?;
-        let row = rows.next()?;
-        let row = row.ok_or_else(|| StoreErrorKind::Unknown(format!("match {}", key.digest())))?;
-        columns::read_record(row, key, &matrix.rules)
+    fn record(
+        &self,
+        matrix: &ScoreMatrix,
+        keys: &MatchKeys<'_>,
+        faults: &Faults,
+    ) -> Result<MatchRecord, StoreErrorKind> {
+        let (maze, seed) = faults.first;
+        let mazes = &[matrix.mazes[maze].digest];
+        let key = MatchKeys { mazes, ..*keys }.key(0, 0, seed);
+        let record = find_record(self.connection, &faults.at, &key, &matrix.rules)?;
+        record.ok_or_else(|| StoreErrorKind::Unknown(format!("match {}", key.digest())))
     }
 }
 

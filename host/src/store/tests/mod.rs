@@ -1,5 +1,9 @@
 //! Laws of stores, on contests that are played at random.
 
+mod damage;
+mod merging;
+mod opening;
 mod reading;
 mod round_trip;
+mod tamper;
 mod writing;
