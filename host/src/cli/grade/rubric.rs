@@ -3,12 +3,13 @@
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
+use wasmouse_core::Digest;
 use wasmouse_core::maze::bundled;
-use wasmouse_core::maze::generate::GenSpec;
+use wasmouse_core::maze::generate::{GenSpec, GeneratedMaze};
 
 use super::super::failure::Failure;
 use super::super::input;
-use super::super::mazes::{self, BadFiles, Identity, Legality, Request};
+use super::super::mazes::{self, BadFiles, Legality, Request};
 use super::check;
 use crate::contest::MazeSource;
 use crate::contest::config::{BYTES_MAX, ConfigError, Document, decode, suggestion};
@@ -22,6 +23,15 @@ pub struct RubricFile {
     pub rubric: Rubric,
     path: PathBuf,
     text: String,
+}
+
+/// What tells mazes apart without generating any: the digest of one that was read, or what
+/// generates it.
+fn identity(maze: &MazeSource) -> (Option<Digest>, Option<GeneratedMaze>) {
+    match maze {
+        MazeSource::Loaded { maze, .. } => (Some(maze.digest()), None),
+        MazeSource::Generated(generated) => (None, Some(*generated)),
+    }
 }
 
 /// What is played for a rubric.
@@ -146,7 +156,7 @@ impl RubricFile {
         let mut members = vec![Vec::new(); self.rubric.sets.len()];
         for (maze, set) in loaded.into_iter().zip(sets) {
             let Some(maze) = maze else { continue };
-            let index = *places.entry(Identity::of(&maze)).or_insert(mazes.len());
+            let index = *places.entry(identity(&maze)).or_insert(mazes.len());
             if index == mazes.len() {
                 mazes.push(maze);
             }
