@@ -78,6 +78,23 @@ fn the_examples_work_to_the_letter() {
 }
 
 #[test]
+fn a_contest_works_to_the_letter() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let blocks = blocks("contest");
+    assert!(blocks.len() >= 3, "the README has a contest");
+    let printed: Vec<String> = blocks
+        .iter()
+        .map(|block| run(block, folder.path()))
+        .collect();
+    assert!(printed[0].contains("   1  flood"), "{}", printed[0]);
+    assert!(printed[0].contains(", 0 are left to play"), "{}", printed[0]);
+    assert!(printed[1].contains("part-2.db: "), "{}", printed[1]);
+    assert!(printed[2].contains("as committed to"), "{}", printed[2]);
+    assert!(folder.path().join("cup/contest.html").is_file());
+    assert!(folder.path().join("standings.md").is_file());
+}
+
+#[test]
 fn the_first_command_of_the_readme_is_the_demo() {
     assert!(README.contains("```sh\ncargo run --release -- demo\n```"));
     let folder = tempfile::tempdir().expect("a temporary folder");

@@ -79,7 +79,18 @@ impl Left {
     /// How many matches there are to play of the entrants that were admitted.
     pub fn playable(&self, entrants: &[Entrant]) -> u64 {
         let admitted = entrants.iter().filter(|it| it.admission.is_ok());
-        let players: HashSet<(Digest, u32)> = admitted.map(|it| (it.digest, it.variant)).collect();
+        self.of(admitted.map(|it| (it.digest, it.variant)))
+    }
+
+    /// How many matches there are to play of the robots that are not rejected, as far as the store
+    /// knows.
+    pub fn not_rejected(&self, matrix: &ScoreMatrix) -> u64 {
+        let admitted = matrix.robots.iter().filter(|it| it.not_admitted.is_none());
+        self.of(admitted.map(|it| (it.digest, it.variant)))
+    }
+
+    fn of(&self, players: impl Iterator<Item = (Digest, u32)>) -> u64 {
+        let players: HashSet<(Digest, u32)> = players.collect();
         let matches = players.iter().filter_map(|it| self.by_player.get(it));
         matches.sum()
     }
@@ -128,9 +139,12 @@ impl PlannedContest {
         players.filter(|it| seen.insert(*it)).collect()
     }
 
-    /// How many matches the contest has.
-    pub fn matches(&self) -> u64 {
-        self.players().len() as u64 * self.mazes.len() as u64 * u64::from(self.seeds.count)
+    /// How many matches the contest has: those of robots that are not rejected, as far as the store
+    /// knows.
+    pub fn matches(&self, matrix: &ScoreMatrix) -> u64 {
+        let admitted = matrix.robots.iter().filter(|it| it.not_admitted.is_none());
+        let players: HashSet<(Digest, u32)> = admitted.map(|it| (it.digest, it.variant)).collect();
+        players.len() as u64 * self.mazes.len() as u64 * u64::from(self.seeds.count)
     }
 
     /// The digests of the mazes, as far as they are known without generating mazes: a generated

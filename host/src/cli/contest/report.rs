@@ -185,7 +185,7 @@ impl Writer<'_> {
             self.matrix,
             &file.scoring,
             &engine,
-            self.contest.matches(),
+            self.contest.matches(self.matrix),
             self.options(),
         );
         if let Some(digest) = self.store.sealed().map_err(store_failure)? {

@@ -132,7 +132,7 @@ impl Args {
             message!(
                 "{} of {} matches are in {}; `wasmouse contest merge` joins the parts",
                 matrix.played(),
-                contest.matches(),
+                contest.matches(&matrix),
                 Text::of_path(&path)
             );
         }

@@ -45,8 +45,8 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         name: contest.folder.file.name.as_str(),
         store: Text::of_path(&path).as_str().to_owned(),
         is_checked: args.check,
-        matches: contest.matches(),
-        left: left.matches,
+        matches: contest.matches(&matrix),
+        left: left.not_rejected(&matrix),
         matrix: &matrix,
         conflicts,
         submissions: submissions
