@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::parts::{caption, label, more};
-use super::scale::{Scale, percentile};
+use super::scale::{Scale, extent, percentile};
 use crate::report::contest::view::View;
 use crate::report::contest::words::{NONE, count};
 
@@ -30,17 +30,27 @@ pub(super) fn boxes(view: &View<'_>) -> Option<Markup> {
         .take(ROBOTS_MAX)
         .map(|&robot| row(view, robot));
     let rows: Vec<Row> = rows.filter(|row| !row.scores.is_empty()).collect();
-    let largest = |values: fn(&Row) -> &Vec<u64>| {
-        let largest = rows.iter().filter_map(|row| values(row).last()).max()?;
-        Some(Scale::new(largest.div_ceil(1000), TICKS_MAX))
+    if rows.is_empty() {
+        return None;
+    }
+    let scale = |values: fn(&Row) -> &Vec<u64>| {
+        let mut all: Vec<u64> = rows.iter().flat_map(values).copied().collect();
+        all.sort_unstable();
+        let end = extent(&all).div_ceil(1000);
+        let scale = Scale::new(end, TICKS_MAX);
+        let is_beyond = all.last().is_some_and(|&it| it > scale.end * 1000);
+        (scale, is_beyond)
     };
-    let scores = largest(|row| &row.scores)?;
-    let regrets = largest(|row| &row.regrets)?;
+    let (scores, are_scores_beyond) = scale(|row| &row.scores);
+    let (regrets, are_regrets_beyond) = scale(|row| &row.regrets);
     let total = view.robots.len();
     Some(html! {
         p { "Of the finished matches. Box: the middle half of them; thick line: the median; thin \
              line: from the 10th to the 90th percentile; dots: best and worst match. Regret is \
-             the score minus that of a robot that knows the maze." }
+             the score minus that of a robot that knows the maze."
+            @if are_scores_beyond || are_regrets_beyond {
+                " What lies beyond an axis is drawn at its end."
+            } }
         div.scroll tabindex="0" role="group" aria-label="Distribution of scores" {
             table.boxes {
                 (caption("Scores and regrets in steps; lower is better."))
@@ -125,7 +135,7 @@ fn plot(sorted: &[u64], scale: Scale) -> Markup {
     else {
         return html! { (NONE) };
     };
-    let width = scale.place(p75 - p25, 100.0);
+    let width = scale.place(p75, 100.0) - scale.place(p25, 100.0);
     let label = format!(
         "{} to {}, median {}, middle half from {} to {}",
         number(least),

@@ -37,9 +37,22 @@ impl Scale {
         (0..=self.end / self.step).map(move |tick| tick * self.step)
     }
 
-    /// Where a number of thousandths is on an axis of that length.
+    /// Where a number of thousandths is on an axis of that length; at its end if it is beyond.
     pub(super) fn place(self, thousandths: u64, length: f64) -> f64 {
-        thousandths as f64 / 1000.0 / self.end as f64 * length
+        let share = thousandths as f64 / 1000.0 / self.end as f64;
+        share.min(1.0) * length
+    }
+}
+
+/// The number that an axis for these should reach: the largest, or the 95th percentile if the
+/// largest is more than twice as large, because a few bad matches must not make all others look
+/// alike. 0 of no number.
+pub(super) fn extent(sorted: &[u64]) -> u64 {
+    let (most, all) = (percentile(sorted, 95), percentile(sorted, 100));
+    match most.zip(all) {
+        Some((most, all)) if most > 0 && all / 2 > most => most,
+        Some((_, all)) => all,
+        None => 0,
     }
 }
 
@@ -73,6 +86,22 @@ mod tests {
         assert!(Scale::new(u64::MAX, 5).ticks().count() <= 6);
         let ticks: Vec<u64> = Scale::new(26, 5).ticks().collect();
         assert_eq!(ticks, [0, 10, 20, 30]);
+    }
+
+    #[test]
+    fn a_few_bad_matches_do_not_stretch_an_axis() {
+        let mut numbers: Vec<u64> = (1..=100).collect();
+        assert_eq!(extent(&numbers), 100);
+        numbers[99] = 191;
+        assert_eq!(extent(&numbers), 191);
+        numbers[99] = 192;
+        assert_eq!(extent(&numbers), 95);
+        assert_eq!([extent(&[]), extent(&[0, 0]), extent(&[0, 9])], [0, 0, 9]);
+        let axis = Scale::new(95, 4);
+        assert_eq!(
+            (axis.place(50_000, 10.0), axis.place(200_000, 10.0)),
+            (5.0, 10.0)
+        );
     }
 
     #[test]

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use maud::{Markup, PreEscaped, html};
 
 use super::parts::{more, shown};
-use super::scale::Scale;
+use super::scale::{Scale, extent};
 use crate::contest::Outcome;
 use crate::report::contest::view::View;
 use crate::report::contest::words::count;
@@ -36,13 +36,24 @@ pub(super) fn scatter(view: &View<'_>) -> Option<Markup> {
         .take(ROBOTS_MAX)
         .map(|&robot| (robot, runs(view, robot)));
     let runs: Vec<(usize, Vec<(u32, u32)>)> = runs.filter(|(_, it)| !it.is_empty()).collect();
+    if runs.is_empty() {
+        return None;
+    }
     let all = || runs.iter().flat_map(|(_, it)| it);
-    let x = Scale::new(all().map(|it| it.0).max()?.into(), 4);
-    let y = Scale::new(all().map(|it| it.1).max()?.into(), 4);
+    let scale = |run: fn(&(u32, u32)) -> u32| {
+        let mut steps: Vec<u64> = all().map(|it| run(it).into()).collect();
+        steps.sort_unstable();
+        let scale = Scale::new(extent(&steps), 4);
+        let is_beyond = steps.last().is_some_and(|&it| it > scale.end);
+        (scale, is_beyond)
+    };
+    let (x, is_x_beyond) = scale(|it| it.0);
+    let (y, is_y_beyond) = scale(|it| it.1);
     let everything: Points = all().map(|&run| place(x, y, run)).collect();
     Some(html! {
         p { "A dot is a finished match, or several in the same place; grey dots are those of the \
-             other robots. Further left: less exploration. Further down: a shorter speed run." }
+             other robots. Further left: less exploration. Further down: a shorter speed run."
+            @if is_x_beyond || is_y_beyond { " What lies beyond an axis is drawn at its end." } }
         svg.defs width="0" height="0" aria-hidden="true" { defs {
             path id="all-runs" d=(PreEscaped(path(&everything))) {}
         } }
