@@ -69,7 +69,6 @@
 
 mod check;
 mod component;
-mod constant;
 mod context;
 mod cost;
 mod declared;

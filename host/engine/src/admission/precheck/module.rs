@@ -3,8 +3,8 @@
 
 use wasmparser::{ConstExpr, DataKind, ElementItems, ElementKind, Payload, TableInit, TypeRef};
 
+use super::super::constant::Constant;
 use super::super::rejection::Rejection;
-use super::constant::Constant;
 use super::context::Context;
 use super::expansion::Requirements;
 use super::measure::{Gauge, Measure};
