@@ -72,6 +72,7 @@ mod component;
 mod context;
 mod cost;
 mod declared;
+mod depth;
 mod expansion;
 mod features;
 mod flow;

@@ -268,7 +268,7 @@ const IMAGE_BYTE_NS: u64 = 4;
 const ENTRY_NS: u64 = 150_000;
 
 /// The same for each parameter and result.
-const VALUE_NS: u64 = 12_000;
+const VALUE_NS: u64 = 20_000;
 
 /// Memory for a compiled entry of a type with that many parameters and results.
 const fn entry_bytes(values: u64) -> u64 {

@@ -112,6 +112,10 @@ impl Startup {
         };
         let memory_bytes: u64 = memories.iter().sum();
         self.data_code(data);
+        // One branch after the other.
+        let sizes = &mut self.sizes;
+        sizes.depths = sizes.blocks.saturating_mul(sizes.blocks) / 2;
+        sizes.deep_bytes = sizes.blocks.saturating_mul(sizes.bytes) / 2;
         Initialisation {
             image_bytes: table_bytes.saturating_add(memory_bytes),
             data,
