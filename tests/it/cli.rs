@@ -452,3 +452,21 @@ fn other_commands_with_bad_input() {
         ],
     );
 }
+
+/// Each job is a thread and perhaps a process.
+#[test]
+fn jobs_are_limited() {
+    let with = |jobs: &str| {
+        let jobs = format!("--jobs={jobs}");
+        ran(wasmouse().args(["run", "flood", "test_maze_01", "--no-cache", &jobs]))
+    };
+    let most = with("1024");
+    assert_eq!(most.status.code(), Some(0), "{}", most.stderr);
+    for jobs in ["0", "1025", "20000", "99999"] {
+        let rejected = with(jobs);
+        assert_eq!(rejected.status.code(), Some(2), "{jobs}");
+        let range = format!("invalid value '{jobs}' for '--jobs <N>'");
+        assert!(rejected.stderr.contains(&range), "{}", rejected.stderr);
+        assert!(rejected.stderr.contains("1..=1024"), "{}", rejected.stderr);
+    }
+}

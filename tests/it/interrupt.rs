@@ -1,4 +1,4 @@
-//! Ctrl-C: a contest ends soon and writes what it has, generating ends at once or between two
+//! Ctrl-C, SIGTERM and SIGHUP: a contest ends soon and writes what it has, generating ends at once or between two
 //! files, and the exit code says so.
 
 #![cfg(target_os = "linux")]
@@ -48,8 +48,12 @@ fn start(arguments: &[&str]) -> Child {
 
 /// Sends what Ctrl-C sends.
 fn interrupt(child: &Child) {
+    send(child, "-INT");
+}
+
+fn send(child: &Child, signal: &str) {
     let kill = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
+        .args([signal, &child.id().to_string()])
         .status();
     assert!(kill.expect("there is `kill`").success());
 }
@@ -59,7 +63,7 @@ fn generating_mazes_ends_at_once() {
     // 100,000 mazes in debug mode: minutes.
     let mazes = "gen:stretches:12..=20:1..=20000";
     let child = start(&["maze", "check", "--summary", mazes]);
-    wait("Ctrl-C is handled", || has_thread(child.id(), "ctrl-c"));
+    wait("signals are handled", || has_thread(child.id(), "signals"));
     thread::sleep(Duration::from_millis(300));
     let interrupted = Instant::now();
     interrupt(&child);
@@ -144,6 +148,70 @@ fn an_interrupted_contest_is_ranked_over_the_mazes_that_all_have_played() {
          that every robot has played\n"
     );
     assert!(stderr.ends_with(&message), "{stderr}");
+}
+
+/// A service manager, `timeout`, `kill`; the terminal that was closed. The exit code is the one that
+/// a shell reports for the signal.
+#[test]
+fn a_contest_that_is_terminated_writes_what_it_has() {
+    for (signal, code) in [("-TERM", 143), ("-HUP", 129)] {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("results.json");
+        let path = path.to_str().expect("UTF-8");
+        let robots = ["run", "random", "gen:tree:20:1..=30000"];
+        let options = ["--json", "--no-cache", "--jobs=2", "-o", path];
+        let child = start(&[&robots[..], &options].concat());
+        wait("matches begin", || has_thread(child.id(), "matches-"));
+        thread::sleep(Duration::from_secs(1));
+        send(&child, signal);
+        let output = child.wait_with_output().expect("the program ends");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{signal}: {stderr}");
+        let results: Results = serde_json::from_slice(&output.stdout).expect("complete JSON");
+        assert!(!results.summary.complete, "{signal}");
+        let file = fs::read(path).expect("the file was written");
+        assert!(
+            file == output.stdout,
+            "{signal}: the file has what was printed"
+        );
+    }
+}
+
+/// Nobody reads what the first signal has it write.
+#[test]
+fn the_second_signal_ends_at_once() {
+    let robots = ["run", "random", "gen:tree:20:1..=30000"];
+    let mut child = start(&[&robots[..], &["--json", "--no-cache", "--jobs=2"]].concat());
+    wait("matches begin", || has_thread(child.id(), "matches-"));
+    // More than a pipe takes.
+    thread::sleep(Duration::from_secs(2));
+    send(&child, "-TERM");
+    thread::sleep(Duration::from_secs(1));
+    let ended = child.try_wait().expect("a child");
+    assert_eq!(ended, None, "it waits for its reader");
+    send(&child, "-HUP");
+    let status = child.wait().expect("the program ends");
+    assert_eq!(status.code(), Some(129));
+}
+
+/// `nohup` is for going on when the terminal is closed.
+#[test]
+fn an_ignored_hangup_stays_ignored() {
+    let mazes = "gen:stretches:12..=20:1..=20000";
+    let child = Command::new("nohup")
+        .arg(wasmouse().get_program())
+        .args(["maze", "check", "--summary", mazes])
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("there is `nohup`");
+    wait("signals are handled", || has_thread(child.id(), "signals"));
+    send(&child, "-HUP");
+    thread::sleep(Duration::from_secs(1));
+    send(&child, "-TERM");
+    let output = child.wait_with_output().expect("the program ends");
+    assert_eq!(output.status.code(), Some(143), "{output:?}");
 }
 
 /// The first time is on one job and so in process; the second is on two, and so in workers.

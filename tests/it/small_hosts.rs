@@ -9,6 +9,7 @@ use std::process::Command;
 use serde_json::Value;
 use wasmouse_engine::bundled::bundled;
 use wasmouse_tests::corpus::cases;
+use wasmouse_tests::module::Module;
 
 use crate::binary::{self, ran};
 
@@ -157,4 +158,33 @@ fn the_number_of_cores_changes_no_result() {
         let found = play(limits, options);
         assert!(found == expected, "{limits} {options:?}: other bytes");
     }
+}
+
+/// A compile worker that an inherited limit on processor time kills says nothing about the robot:
+/// that is recorded as a failure of the host, and the others play.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_limit_on_processor_time_is_no_rejection() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    // Takes seconds to compile, less than admission allows.
+    let calls = "(call_indirect (i32.const 0))".repeat(12_000);
+    let slow = Module {
+        rest: &format!("(table 1 funcref) (func {calls})"),
+        ..Module::default()
+    };
+    let robots = [("good", Module::default()), ("slow", slow)].map(|(name, robot)| {
+        let path = folder.path().join(format!("{name}.wasm"));
+        fs::write(&path, robot.component()).expect("a temporary file");
+        path
+    });
+    let ran = ran(&mut contest("ulimit -t 1;", &robots, &["--jobs=2"]));
+    assert_eq!(ran.status.code(), Some(5), "{}", ran.stderr);
+    let document: Value = serde_json::from_str(&ran.stdout).expect("a document");
+    let robots = document["contest"]["robots"].as_array().expect("a list");
+    let slow = robots.iter().find(|robot| robot["name"] == "slow");
+    let slow = slow.expect("the robot is listed");
+    assert_eq!(slow["rejection"], Value::Null, "{slow}");
+    assert_ne!(slow["failure"], Value::Null, "{slow}");
+    let good = &outcomes(&document)["good"];
+    assert_ne!(good.1, Value::Null, "the other robot plays");
 }

@@ -164,7 +164,7 @@ pub struct AdmissionLimits {
     /// Estimated time to compile the file, in ms: the sum over its functions. Stops
     /// files with many functions that are each just under a limit. The estimate is
     /// about twice the truth for real robots, and near it for the worst files that are
-    /// known, on one thread; workers compile on two. Default 65,000.
+    /// known, on one thread; workers compile on two. Default 42,000.
     pub work_ms_max: u32,
 }
 
@@ -209,7 +209,7 @@ impl AdmissionLimits {
         function_memory_mib_max: 600,
         function_work_ms_max: 20_000,
         memory_mib_max: 1000,
-        work_ms_max: 65_000,
+        work_ms_max: 42_000,
     };
 
     /// Core instances that an admitted component can have: those in the file, and one for every
@@ -220,7 +220,7 @@ impl AdmissionLimits {
             .saturating_add(self.lowered_functions_max)
     }
 
-    /// The identity of the limits. Canonical encoding `wasmouse.admission.2`
+    /// The identity of the limits. Canonical encoding `wasmouse.admission.3`
     /// ([`DigestBuilder`]): the fields as numbers, in their order.
     pub fn digest(&self) -> Digest {
         let Self {
@@ -264,7 +264,7 @@ impl AdmissionLimits {
             memory_mib_max,
             work_ms_max,
         } = *self;
-        DigestBuilder::new("wasmouse.admission.2")
+        DigestBuilder::new("wasmouse.admission.3")
             .numbers(&[
                 component_bytes_max,
                 core_instances_max.into(),

@@ -26,11 +26,16 @@ pub enum Exit {
     OtherEngine = 7,
     /// A result was verified, but its file was reformatted.
     Reformatted = 8,
+    /// Interrupted by SIGHUP, because the terminal was closed; what was finished by then has been
+    /// written. This and the other codes of signals are those that a shell reports.
+    HungUp = 129,
     /// Interrupted by Ctrl-C; what was finished by then has been written.
     Interrupted = 130,
     /// Everything was done, but the reader of standard output went away before the end. As the
     /// shell reports a program that the signal for a broken pipe ends.
     Unread = 141,
+    /// Interrupted by SIGTERM; what was finished by then has been written.
+    Terminated = 143,
 }
 
 impl Exit {
@@ -56,8 +61,10 @@ Exit codes:
     6  no robot finished any match
     7  a result was recorded with another engine version
     8  a result is verified, but its file was reformatted
+  129  interrupted because the terminal was closed (SIGHUP)
   130  interrupted by Ctrl-C
-  141  the reader of standard output closed it before the end";
+  141  the reader of standard output closed it before the end
+  143  interrupted by SIGTERM";
 
 impl From<Exit> for ExitCode {
     fn from(exit: Exit) -> Self {

@@ -143,7 +143,7 @@ fn end(outcome: Result<Exit, Failure>) -> ExitCode {
         message!("{}", failure.report());
         failure.exit()
     });
-    output::finish(exit).into()
+    output::finish(interrupt::exit_of(exit)).into()
 }
 
 /// Prints an invalid command line, or the help, as clap does, but with the word for hints that

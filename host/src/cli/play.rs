@@ -20,7 +20,7 @@ pub struct Pace {
 }
 
 /// Plays the matches of a plan that are wanted, `total` of them, with a progress bar on a
-/// terminal. Ctrl-C ends it early.
+/// terminal. A signal ends it early.
 ///
 /// # Errors
 ///
@@ -69,7 +69,7 @@ pub fn play_all(
     play(plan, executor, pace, (&|_| true, plan.matches()), sink)
 }
 
-/// Whether Ctrl-C was pressed.
+/// Whether a signal asked to end.
 ///
 /// # Errors
 ///

@@ -48,7 +48,8 @@ Exit codes:
   5  internal error, or a robot took too long or could not be admitted or played
      for a reason of the host; everything else was played
   6  no robot finished any match
-  130  interrupted; what was played by then has been written";
+  129, 130, 143  ended by SIGHUP, Ctrl-C or SIGTERM; what was played by then has
+     been written";
 
 /// More matches than this are only listed when asked for.
 const LISTED_MAX: u64 = 40;

@@ -48,7 +48,7 @@ Exit codes (the largest, for several results):
   5  internal error
   7  the result was recorded by another version of the engine
   8  everything is as recorded, but the file was reformatted
-  130  interrupted";
+  129, 130, 143  ended by SIGHUP, Ctrl-C or SIGTERM";
 
 /// Largest result file, in bytes: more than a million matches.
 const RESULT_BYTES_MAX: u64 = 4 << 30;

@@ -202,6 +202,60 @@ pub fn stacked_values(values: u32, times: u32) -> Vec<u8> {
     Parts::one(0, body)
 }
 
+/// A chain of branches, and after it a table of branches to where others lead from its beginning: from
+/// each of its targets the compiler walks up the chain.
+pub fn shallow_joins(joins: u32, chain: u32) -> Vec<u8> {
+    let mut body = vec![I::Block(BlockType::Empty); count(joins)];
+    for join in 0..joins {
+        body.extend([I::LocalGet(0), I::BrIf(join)]);
+    }
+    // What the chain leads to is around all.
+    body.insert(0, I::Block(BlockType::Empty));
+    body.extend(repeated(&[I::LocalGet(0), I::BrIf(joins)], chain));
+    let labels: Vec<u32> = (0..joins).collect();
+    body.extend([I::LocalGet(0), I::BrTable(labels.into(), joins)]);
+    body.extend(vec![I::End; count(joins) + 1]);
+    Parts::one(0, body)
+}
+
+/// A chain of branches, and after it additions of numbers that are all different: the compiler looks
+/// up how far up the chain each could be computed.
+pub fn deep_additions(chain: u32, additions: u32) -> Vec<u8> {
+    let mut body = vec![I::Block(BlockType::Empty)];
+    body.extend(repeated(&[I::LocalGet(0), I::BrIf(0)], chain));
+    for addition in 0..additions {
+        let number = i32::try_from(addition).expect("a small number") + 1000;
+        body.extend([I::LocalGet(0), I::I32Const(number), I::I32Add]);
+        body.push(I::GlobalSet(0));
+    }
+    body.push(I::End);
+    Parts::one(0, body)
+}
+
+/// Values that are made after many joins, and live over as many others: for each block that they
+/// live in, the compiler goes through the parameters of all blocks.
+pub fn late_values(joins: u32, values: u32) -> Vec<u8> {
+    // One way to the join takes more fuel, so the fuel is a parameter of it.
+    let join = [
+        I::Block(BlockType::Empty),
+        I::LocalGet(0),
+        I::BrIf(0),
+        I::LocalGet(0),
+        I::GlobalSet(0),
+        I::End,
+    ];
+    let mut body = repeated(&join, joins);
+    for value in 0..values {
+        body.extend(load(value));
+        body.push(I::LocalSet(1 + value));
+    }
+    body.extend(repeated(&join, joins));
+    for value in 0..values {
+        body.extend([I::LocalGet(1 + value), I::GlobalSet(0)]);
+    }
+    Parts::one(values, body)
+}
+
 /// Functions that do nothing. 1,000,000: 8.8 MB, 93 s and 6 GB.
 pub fn empty_functions(functions: u32) -> Vec<u8> {
     let parts = Parts {

@@ -7,7 +7,7 @@ use wasmouse_engine::Limits;
 use wasmtime::Engine;
 
 use super::generators::{GENERATORS, Generator};
-use super::measure::{Cost, copies, cost, engine, estimate};
+use super::measure::{Cost, copies, cost, engine, estimate, repeated};
 
 /// Below this the time says nothing, in estimated seconds.
 const ESTIMATE_MIN: f64 = 0.05;
@@ -179,37 +179,43 @@ impl Climb {
         }
     }
 
-    /// Compiles a file with as many copies as are admitted of what a generator made.
+    /// Compiles a file with as much as is admitted of what a generator made: its functions again
+    /// and again, or else copies of its module.
     fn fill(&self, best: &Best, worst: &mut Worst) {
         let module = (best.generator.make)(&best.parameters);
         let is_module = module.get(4) == Some(&1);
         let Some(one) = estimate(&module, &self.limits).filter(|_| is_module) else {
             return;
         };
-        let mut number = self.limits.admission.modules_max;
-        if one > 0.0 {
-            let all = f64::from(self.limits.admission.work_ms_max) / 1000.0;
-            while f64::from(number) * one > all {
-                number -= 1;
-            }
-        }
+        let all = f64::from(self.limits.admission.work_ms_max) / 1000.0;
+        let most = self.limits.admission.functions_max;
+        let is_within = |&number: &u32| f64::from(number) * one <= all;
+        let mut number = (1..=most).rev().find(is_within).unwrap_or(1);
         while number > 0 {
-            let file = copies(&module, number);
-            if let Some(estimate) = estimate(&file, &self.limits) {
+            let modules = number.min(self.limits.admission.modules_max);
+            let functions = repeated(&module, number).map(|module| copies(&module, 1));
+            let files = [
+                (functions, format!("functions {number} times")),
+                (Some(copies(&module, modules)), format!("{modules} modules")),
+            ];
+            for (file, what) in files {
+                let Some((file, estimate)) = file.and_then(|file| {
+                    let estimate = estimate(&file, &self.limits)?;
+                    Some((file, estimate))
+                }) else {
+                    continue;
+                };
                 if let Some(cost) = cost(&file, estimate, &self.engine) {
                     let Best {
                         generator,
                         parameters,
                         ..
                     } = best;
-                    worst.note(
-                        &format!("{number} x {}{parameters:?}", generator.name),
-                        &cost,
-                    );
+                    worst.note(&format!("{}{parameters:?}, {what}", generator.name), &cost);
                 }
                 return;
             }
-            number = number * 9 / 10;
+            number = number * 19 / 20;
         }
     }
 

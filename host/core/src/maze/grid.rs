@@ -63,6 +63,38 @@ impl Walls {
         walls
     }
 
+    /// The grid whose cells have these [values](Walls::value), in the order of [`Walls::cells`].
+    /// `None` unless there are as many as cells, the two cells of every edge agree about it, and
+    /// the perimeter is closed.
+    fn from_values(dimension: u8, values: &[u8]) -> Option<Self> {
+        let column = usize::from(dimension);
+        if !DIMENSIONS.contains(&dimension) || values.len() != column * column {
+            return None;
+        }
+        let is_open = |value: u8, heading: Heading| value & heading.bit() != 0;
+        for (at, &value) in values.iter().enumerate() {
+            let (x, y) = (at / column, at % column);
+            let above = if y + 1 < column { values[at + 1] } else { 0 };
+            let right = if x + 1 < column {
+                values[at + column]
+            } else {
+                0
+            };
+            let agrees = value < 16
+                && is_open(value, Heading::Up) == is_open(above, Heading::Down)
+                && is_open(value, Heading::Right) == is_open(right, Heading::Left)
+                && !(y == 0 && is_open(value, Heading::Down))
+                && !(x == 0 && is_open(value, Heading::Left));
+            if !agrees {
+                return None;
+            }
+        }
+        Some(Self {
+            dimension,
+            open: values.into(),
+        })
+    }
+
     /// Cells along each side, in [`DIMENSIONS`].
     pub const fn dimension(&self) -> u8 {
         self.dimension
@@ -204,15 +236,11 @@ impl Maze {
         if goal.contains(start) {
             return Err(MazeError::StartInGoal { start });
         }
-        let reach = walls
-            .cells()
-            .map(|cell| Heading::ALL.map(|heading| open_cells(&walls, cell, heading)))
-            .collect();
         Ok(Self {
+            reach: reaches(&walls),
             walls,
             start,
             goal,
-            reach,
         })
     }
 
@@ -297,36 +325,39 @@ impl Maze {
     pub fn from_identity_bytes(bytes: &[u8]) -> Option<Self> {
         let (&[dimension, start_x, start_y, goal_x, goal_y, width, height], values) =
             bytes.split_first_chunk()?;
-        let cells = usize::from(dimension) * usize::from(dimension);
-        if !DIMENSIONS.contains(&dimension) || values.len() != cells {
-            return None;
-        }
-        let mut walls = Walls::closed(dimension);
-        for (cell, value) in walls.cells().zip(values) {
-            for heading in Heading::ALL {
-                if value & heading.bit() != 0 {
-                    walls.neighbor(cell, heading)?;
-                    walls.set(cell, heading, true);
-                }
-            }
-        }
-        // Both cells of an edge have to agree about it.
-        if *walls.open != *values {
-            return None;
-        }
+        let walls = Walls::from_values(dimension, values)?;
         let goal = Area::new(Cell::new(goal_x, goal_y), width, height)?;
         Self::new(walls, Cell::new(start_x, start_y), goal).ok()
     }
 }
 
-fn open_cells(walls: &Walls, from: Cell, heading: Heading) -> u8 {
-    let mut cell = from;
-    let mut count = 0;
-    while walls.is_open(cell, heading) {
-        cell = cell.step(heading).expect("the perimeter is closed");
-        count += 1;
+/// The open cells to the nearest wall, for every cell in every direction. Each is one more than
+/// that of the next cell in that direction, so the cells are visited in both orders.
+fn reaches(walls: &Walls) -> Box<[[u8; 4]]> {
+    let column = usize::from(walls.dimension);
+    let mut reach = vec![[0; 4]; walls.open.len()].into_boxed_slice();
+    // The perimeter is closed, so the cell behind an open side exists.
+    let one_more = |value: u8, heading: Heading, next: u8| match value & heading.bit() {
+        0 => 0,
+        _ => next + 1,
+    };
+    for (at, &value) in walls.open.iter().enumerate() {
+        for (heading, distance) in [(Heading::Down, 1), (Heading::Left, column)] {
+            let next = at
+                .checked_sub(distance)
+                .map_or(0, |next| reach[next][heading as usize]);
+            reach[at][heading as usize] = one_more(value, heading, next);
+        }
     }
-    count
+    for (at, &value) in walls.open.iter().enumerate().rev() {
+        for (heading, distance) in [(Heading::Up, 1), (Heading::Right, column)] {
+            let next = reach
+                .get(at + distance)
+                .map_or(0, |next| next[heading as usize]);
+            reach[at][heading as usize] = one_more(value, heading, next);
+        }
+    }
+    reach
 }
 
 #[cfg(test)]
@@ -356,6 +387,45 @@ mod tests {
         assert_eq!(maze.reach(Cell::new(0, 0), Heading::Up), 3);
         assert_eq!(maze.reach(Cell::new(0, 4), Heading::Down), 0);
         assert_eq!(maze.reach(Cell::new(0, 4), Heading::Right), 5);
+    }
+
+    /// By walking from every cell in every direction.
+    #[test]
+    fn reach_of_every_cell_of_the_bundled_mazes() {
+        for bundled in crate::maze::bundled() {
+            let maze = crate::maze::format::parse(bundled.text)
+                .expect("a maze")
+                .maze;
+            let walls = maze.walls();
+            for cell in walls.cells() {
+                for heading in Heading::ALL {
+                    let (mut at, mut open) = (cell, 0);
+                    while walls.is_open(at, heading) {
+                        at = at.step(heading).expect("the perimeter is closed");
+                        open += 1;
+                    }
+                    assert_eq!(maze.reach(cell, heading), open, "{cell} {heading}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn bytes_of_no_maze_are_none() {
+        let maze = Maze::contest(Walls::open(4)).expect("legal start and goal");
+        let bytes = maze.identity_bytes();
+        assert_eq!(Maze::from_identity_bytes(&bytes), Some(maze));
+        let cells = 7..bytes.len();
+        // Any bit of a cell is either an edge that the neighbor disagrees about, or an open
+        // perimeter, or no side at all.
+        for at in cells {
+            for bit in 0..8 {
+                let mut changed = bytes.clone();
+                changed[at] ^= 1 << bit;
+                assert_eq!(Maze::from_identity_bytes(&changed), None, "{at} {bit}");
+            }
+        }
+        assert_eq!(Maze::from_identity_bytes(&bytes[..bytes.len() - 1]), None);
     }
 
     #[test]

@@ -7,7 +7,9 @@
 
 mod binary;
 mod componentize;
+pub(crate) mod constant;
 mod examine;
+pub(crate) mod images;
 mod inspection;
 mod names;
 mod place;

@@ -6,16 +6,19 @@
 //! it is the same on every machine. It counts against the fuel limit of the start and is not part
 //! of the fuel that a match reports.
 //!
-//! Prices are for what a robot makes the host do. An image of a memory or a table is a part of
-//! the compiled code, costs nothing however large it is, and is what all toolchains make; see
-//! `try_static_init` and `try_func_table_init` in wasmtime-environ 48 for the conditions. What is
-//! no image is copied, at a price that ends a robot whose start would take about as long as a
+//! Prices are for what a robot makes the host do. An image of a memory or a table ([`Images`]) is
+//! a part of the compiled code, costs nothing however large it is, and is what all toolchains make.
+//! What is no image is copied, at a price that ends a robot whose start would take about as long as a
 //! match: Python robots have up to 18 MB of data, which is affordable even if all is copied.
 
 use wasmparser::{
     ComponentAlias, ComponentExternalKind, ComponentInstance, ComponentOuterAliasKind, ConstExpr,
-    DataKind, ElementItems, ElementKind, Encoding, Instance, Operator, Parser, Payload, TypeRef,
+    DataKind, ElementItems, ElementKind, Encoding, Instance, Parser, Payload, Table, TableInit,
+    TypeRef,
 };
+
+use crate::admission::constant::Constant;
+use crate::admission::images::Images;
 
 /// A core instance.
 const INSTANCE: u64 = 10_000;
@@ -34,10 +37,6 @@ const DATA_BYTE: u64 = 64;
 
 /// A segment, and a global.
 const ITEM: u64 = 10;
-
-/// Memory images up to this size may be empty for the most part; the default of wasmtime's
-/// `memory_guaranteed_dense_image_size`.
-const SPARSE_IMAGE_BYTES_MAX: u64 = 16 << 20;
 
 /// A page of linear memory, in bytes.
 const PAGE_BYTES: u64 = 64 << 10;
@@ -175,28 +174,9 @@ fn push(scopes: &mut [Scope], kind: ComponentExternalKind, fuel: u64) {
 /// A core module that is being read.
 #[derive(Default)]
 struct Module {
-    memories: Vec<Memory>,
-    tables: Vec<Table>,
-    /// A segment of elements was no image; then those after it are none either.
-    has_copied_elements: bool,
-    /// A data segment can be in no image; then none is.
-    has_copied_data: bool,
+    images: Images,
     data_bytes: u64,
     fuel: u64,
-}
-
-struct Memory {
-    is_imported: bool,
-    bytes: u64,
-    /// Bytes of its data segments together, and where the first begins and the last ends.
-    data_bytes: u64,
-    begin: u64,
-    end: u64,
-}
-
-struct Table {
-    is_imported: bool,
-    elements: u64,
 }
 
 impl Module {
@@ -205,20 +185,20 @@ impl Module {
             Payload::ImportSection(section) => {
                 for import in section.clone().into_imports().flatten() {
                     match import.ty {
-                        TypeRef::Memory(_) => self.memory(true, 0),
-                        TypeRef::Table(_) => self.table(true, 0),
+                        TypeRef::Memory(_) => self.images.import_memory(),
+                        TypeRef::Table(_) => self.images.import_table(),
                         _ => {}
                     }
                 }
             }
             Payload::TableSection(section) => {
                 for table in section.clone().into_iter().flatten() {
-                    self.table(false, table.ty.initial);
+                    self.table(&table);
                 }
             }
             Payload::MemorySection(section) => {
                 for memory in section.clone().into_iter().flatten() {
-                    self.memory(false, memory.initial);
+                    self.memory(memory.initial);
                 }
             }
             Payload::GlobalSection(section) => self.charge(section.count().into(), ITEM),
@@ -248,23 +228,24 @@ impl Module {
         self.fuel = self.fuel.saturating_add(count.saturating_mul(price));
     }
 
-    fn memory(&mut self, is_imported: bool, pages: u64) {
+    fn memory(&mut self, pages: u64) {
         self.charge(pages, MEMORY_PAGE);
-        self.memories.push(Memory {
-            is_imported,
-            bytes: pages.saturating_mul(PAGE_BYTES),
-            data_bytes: 0,
-            begin: u64::MAX,
-            end: 0,
-        });
+        self.images.memory(pages.saturating_mul(PAGE_BYTES));
     }
 
-    fn table(&mut self, is_imported: bool, elements: u64) {
+    fn table(&mut self, table: &Table<'_>) {
+        let elements = table.ty.initial;
         self.charge(elements, TABLE_ELEMENT);
-        self.tables.push(Table {
-            is_imported,
-            elements,
-        });
+        let is_function = match &table.init {
+            TableInit::RefNull => None,
+            TableInit::Expr(value) => {
+                let value = Constant::read(value).unwrap_or_default();
+                Some(value.function.is_some())
+            }
+        };
+        if !self.images.table(elements, is_function) {
+            self.charge(elements, ELEMENT);
+        }
     }
 
     fn elements(&mut self, element: &wasmparser::Element<'_>) {
@@ -280,14 +261,10 @@ impl Module {
                 table_index,
                 offset_expr,
             } => {
-                let table = self.tables.get(to_usize(table_index.unwrap_or(0)));
-                let end = constant(offset_expr).map(|offset| offset.saturating_add(count));
-                let is_image = are_functions
-                    && table.is_some_and(|it| {
-                        !it.is_imported && end.is_some_and(|end| end <= it.elements)
-                    });
-                self.has_copied_elements |= !is_image;
-                if self.has_copied_elements {
+                let table = table_index.unwrap_or(0);
+                let offset = number(offset_expr);
+                let images = &mut self.images;
+                if !images.elements(table, offset, count, are_functions) {
                     self.charge(count, ELEMENT);
                 }
             }
@@ -297,30 +274,12 @@ impl Module {
     fn data(&mut self, memory: u32, offset: &ConstExpr<'_>, bytes: usize) {
         let bytes = u64::try_from(bytes).unwrap_or(u64::MAX);
         self.data_bytes = self.data_bytes.saturating_add(bytes);
-        let memory = self.memories.get_mut(to_usize(memory));
-        let place = memory.zip(constant(offset)).and_then(|(memory, begin)| {
-            let end = begin.saturating_add(bytes);
-            let is_inside = !memory.is_imported && end <= memory.bytes;
-            is_inside.then_some((memory, begin, end))
-        });
-        match place {
-            None => self.has_copied_data = true,
-            Some(_) if bytes == 0 => {}
-            Some((memory, begin, end)) => {
-                memory.data_bytes = memory.data_bytes.saturating_add(bytes);
-                memory.begin = memory.begin.min(begin);
-                memory.end = memory.end.max(end);
-            }
-        }
+        self.images.data(memory, number(offset), bytes);
     }
 
     /// The price of one instance, when all is read.
     fn fuel(mut self) -> u64 {
-        let is_sparse = |memory: &Memory| {
-            let image = memory.end.saturating_sub(memory.begin);
-            image >= SPARSE_IMAGE_BYTES_MAX && image >= memory.data_bytes.saturating_mul(2)
-        };
-        if self.has_copied_data || self.memories.iter().any(is_sparse) {
+        if self.images.is_data_copied() {
             self.charge(self.data_bytes, DATA_BYTE);
         }
         self.fuel.saturating_add(INSTANCE)
@@ -328,13 +287,8 @@ impl Module {
 }
 
 /// The value of an expression that is one number.
-fn constant(expression: &ConstExpr<'_>) -> Option<u64> {
-    let mut operators = expression.get_operators_reader();
-    let value = match operators.read().ok()? {
-        Operator::I32Const { value } => u64::from(value.cast_unsigned()),
-        _ => return None,
-    };
-    matches!(operators.read(), Ok(Operator::End)).then_some(value)
+fn number(expression: &ConstExpr<'_>) -> Option<u64> {
+    Constant::read(expression).ok()?.number
 }
 
 fn to_usize(index: u32) -> usize {

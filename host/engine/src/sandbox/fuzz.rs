@@ -212,6 +212,7 @@ mod tests {
     fn request_seeds() -> Vec<Vec<u8>> {
         let maze = framed(&Request::Maze {
             slot: 1,
+            digest: maze().digest(),
             bytes: maze().identity_bytes(),
         });
         let order = |seed| MatchOrder {

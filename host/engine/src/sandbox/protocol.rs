@@ -70,6 +70,9 @@ pub(super) enum Request {
     Maze {
         /// Where to keep it; what was there is dropped.
         slot: u16,
+        /// Its digest. The worker does not compute it: a wrong one would only name what it
+        /// plays, and the supervisor makes the record.
+        digest: Digest,
         /// Its identity bytes.
         bytes: Vec<u8>,
     },

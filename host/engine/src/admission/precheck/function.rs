@@ -8,6 +8,7 @@ use wasmparser::{
 
 use super::super::rejection::Rejection;
 use super::cost::Sizes;
+use super::depth::Depth;
 use super::flow::{Construct, Flow};
 use super::measure::{Gauge, Measure};
 
@@ -82,6 +83,7 @@ const GLOBALS_MAX: usize = 1_000_000;
 pub(super) struct Functions {
     allocations: FuncValidatorAllocations,
     flow: Flow,
+    depth: Depth,
     targets: Vec<u32>,
     regions: Regions,
 }
@@ -114,10 +116,12 @@ impl Functions {
         let locals = validator.len_locals();
         gauge.note(Measure::Locals, locals.into(), range.start)?;
         self.flow.begin(locals, results);
+        self.depth.begin();
         self.regions.begin();
         let mut function = Function {
             validator,
             flow: &mut self.flow,
+            depth: &mut self.depth,
             targets: &mut self.targets,
             regions: &mut self.regions,
             gauge,
@@ -138,6 +142,7 @@ impl Functions {
 struct Function<'a, 'l> {
     validator: FuncValidator<ValidatorResources>,
     flow: &'a mut Flow,
+    depth: &'a mut Depth,
     targets: &'a mut Vec<u32>,
     regions: &'a mut Regions,
     gauge: &'a mut Gauge<'l>,
@@ -158,6 +163,8 @@ impl Function<'_, '_> {
             // Before it is validated, which for some takes long.
             self.operator(&operator, byte)?;
             reader.visit_operator(&mut self.validator.visitor(byte))??;
+            let bytes = reader.original_position() - byte;
+            self.sizes.deep_bytes += bytes * self.depth.now();
             let operands = u64::from(self.validator.operand_stack_height());
             if operands > self.sizes.operands {
                 self.sizes.operands = operands;
@@ -175,34 +182,42 @@ impl Function<'_, '_> {
             // A loop checks fuel and epoch.
             Operator::Loop { blockty } => self.open(Construct::Loop, *blockty, 4, byte)?,
             Operator::If { blockty } => self.open(Construct::If, *blockty, 3, byte)?,
-            Operator::Else => self.flow.otherwise(),
-            Operator::End => self.flow.close(),
+            Operator::Else => {
+                self.flow.otherwise();
+                self.depth.otherwise();
+            }
+            Operator::End => {
+                self.flow.close();
+                self.depth.close();
+            }
             Operator::Br { relative_depth } => {
                 self.branch(*relative_depth, byte)?;
                 self.flow.jump(*relative_depth);
+                self.depth.leave();
             }
             Operator::BrIf { relative_depth } => {
                 self.branch(*relative_depth, byte)?;
                 self.flow.fork(*relative_depth);
+                self.depth.fork(1);
             }
             Operator::BrTable { targets } => self.table(targets, byte)?,
-            Operator::Return | Operator::Unreachable => self.flow.leave(),
+            Operator::Return | Operator::Unreachable => self.leave(),
             Operator::Call { function_index } => self.call(*function_index),
             Operator::ReturnCall { function_index } => {
                 self.call(*function_index);
-                self.flow.leave();
+                self.leave();
             }
             Operator::ReturnCallIndirect { type_index, .. } => {
-                self.sizes.blocks += 2;
+                self.table_access();
                 self.pass(BlockType::FuncType(*type_index));
-                self.flow.leave();
+                self.leave();
             }
             // A table is filled lazily: the entry may have to be made first.
             Operator::CallIndirect { type_index, .. } => {
-                self.sizes.blocks += 2;
+                self.table_access();
                 self.pass(BlockType::FuncType(*type_index));
             }
-            Operator::TableGet { .. } | Operator::TableSet { .. } => self.sizes.blocks += 2,
+            Operator::TableGet { .. } | Operator::TableSet { .. } => self.table_access(),
             Operator::GlobalGet { global_index } | Operator::GlobalSet { global_index } => {
                 self.sizes.regions += self.regions.access(*global_index);
             }
@@ -225,7 +240,15 @@ impl Function<'_, '_> {
         byte: u64,
     ) -> Result<(), Rejection> {
         let (parameters, results) = self.arity(ty);
-        self.sizes.blocks += blocks;
+        match construct {
+            Construct::Block => self.depth.block(),
+            Construct::Loop => {
+                self.depth.repeat();
+                self.sizes.heavy += 1;
+            }
+            Construct::If => self.depth.condition(),
+        }
+        self.blocks(blocks);
         self.sizes.typed += parameters + results;
         let label = match construct {
             Construct::Loop => parameters,
@@ -238,10 +261,32 @@ impl Function<'_, '_> {
             .note(Measure::LoopNesting, self.flow.loops().into(), byte)
     }
 
+    /// That many blocks about here.
+    fn blocks(&mut self, number: u64) {
+        self.sizes.blocks += number;
+        self.sizes.depths += number * self.depth.now();
+    }
+
+    /// An access to a table, which may call the host. Its values are all new, so it has more of the
+    /// dominator tree to go up than its blocks have.
+    fn table_access(&mut self) {
+        self.blocks(2);
+        self.sizes.heavy += 2;
+        self.sizes.depths += self.depth.now();
+        self.depth.fork(1);
+    }
+
+    /// The end of a path.
+    fn leave(&mut self) {
+        self.flow.leave();
+        self.depth.leave();
+    }
+
     /// A branch to a label: the block after it, and one on the edge.
     fn branch(&mut self, label: u32, byte: u64) -> Result<(), Rejection> {
         let values = self.label_values(label);
-        self.sizes.blocks += 2;
+        self.blocks(2);
+        self.depth.branch(label);
         self.sizes.typed += values;
         self.gauge.add_work(values * BRANCH_VALUE_NS, byte)
     }
@@ -278,11 +323,13 @@ impl Function<'_, '_> {
         self.targets.sort_unstable();
         self.targets.dedup();
         for &target in &*self.targets {
-            self.sizes.blocks += 1;
-            self.sizes.typed += values;
             self.flow.fork(target);
+            self.depth.branch(target);
         }
-        self.flow.leave();
+        let targets = u64::try_from(self.targets.len()).unwrap_or(u64::MAX);
+        self.blocks(targets);
+        self.sizes.typed += targets * values;
+        self.leave();
         Ok(())
     }
 

@@ -69,10 +69,10 @@
 
 mod check;
 mod component;
-mod constant;
 mod context;
 mod cost;
 mod declared;
+mod depth;
 mod expansion;
 mod features;
 mod flow;

@@ -3,8 +3,8 @@
 
 use wasmparser::{ConstExpr, DataKind, ElementItems, ElementKind, Payload, TableInit, TypeRef};
 
+use super::super::constant::Constant;
 use super::super::rejection::Rejection;
-use super::constant::Constant;
 use super::context::Context;
 use super::expansion::Requirements;
 use super::measure::{Gauge, Measure};
@@ -268,7 +268,7 @@ const IMAGE_BYTE_NS: u64 = 4;
 const ENTRY_NS: u64 = 150_000;
 
 /// The same for each parameter and result.
-const VALUE_NS: u64 = 12_000;
+const VALUE_NS: u64 = 20_000;
 
 /// Memory for a compiled entry of a type with that many parameters and results.
 const fn entry_bytes(values: u64) -> u64 {

@@ -3,24 +3,14 @@
 //!
 //! It is one function, however many globals and segments there are, so Cranelift takes time
 //! that grows with the square of it. What is constant costs nothing here: numbers, and segments
-//! at constant places of the module's own tables and memories, which become images that are a
-//! part of the compiled code. The conditions are those of `try_static_init` and
-//! `try_func_table_init` in `wasmtime-environ` 48.
+//! that become [`Images`].
 
-use super::constant::Constant;
+use super::super::constant::Constant;
+use super::super::images::Images;
 use super::cost::Sizes;
 
-/// Wasmtime makes images of tables with at most that many elements.
-const TABLE_IMAGE_ELEMENTS_MAX: u64 = 1 << 20;
-
-/// Bytes of one of them.
+/// Bytes of an element in the image of a table.
 const TABLE_IMAGE_ELEMENT_BYTES: u64 = 4;
-
-/// An image of a memory that is smaller than this may be empty for the most part.
-const MEMORY_IMAGE_BYTES_MAX: u64 = 16 << 20;
-
-/// An image begins and ends with a page.
-const IMAGE_PAGE_BYTES: u64 = 64 << 10;
 
 /// Bytes of code in a function that would do what an operator of a constant expression does.
 const OPERATOR_BYTES: u64 = 4;
@@ -28,12 +18,7 @@ const OPERATOR_BYTES: u64 = 4;
 /// What a module initialises, up to where it is read.
 #[derive(Debug, Default)]
 pub(super) struct Startup {
-    tables: Vec<Table>,
-    memories: Vec<Memory>,
-    /// Whether an element segment needs code; then all after it do.
-    has_dynamic_elements: bool,
-    /// Whether a data segment needs code; then all do.
-    has_dynamic_data: bool,
+    images: Images,
     data_segments: u64,
     sizes: Sizes,
 }
@@ -49,67 +34,31 @@ pub(super) struct Initialisation {
     pub(super) code: Sizes,
 }
 
-/// A table of the module; imported ones come first.
-#[derive(Clone, Copy, Debug)]
-struct Table {
-    is_imported: bool,
-    elements: u64,
-    /// Whether its first elements are no image.
-    is_dynamic: bool,
-    /// Length of its image, in elements.
-    image: u64,
-}
-
-/// A memory of the module; imported ones come first.
-#[derive(Clone, Copy, Debug)]
-struct Memory {
-    is_imported: bool,
-    bytes: u64,
-    /// Of all segments together.
-    data_bytes: u64,
-    start: u64,
-    end: u64,
-}
-
 impl Startup {
     /// An imported table.
     pub(super) fn import_table(&mut self) {
-        self.tables.push(Table {
-            is_imported: true,
-            elements: 0,
-            is_dynamic: false,
-            image: 0,
-        });
+        self.images.import_table();
     }
 
     /// A table with that many elements, each of which is that expression.
     pub(super) fn table(&mut self, elements: u64, initial: Option<&Constant>) {
-        let has_image = elements <= TABLE_IMAGE_ELEMENTS_MAX;
-        let is_dynamic = initial.is_some_and(|it| it.function.is_none() || !has_image);
+        let is_function = initial.map(|it| it.function.is_some());
+        let is_image = self.images.table(elements, is_function);
         if let Some(initial) = initial
-            && is_dynamic
+            && !is_image
         {
             self.operators(initial.operators, 1);
         }
-        self.tables.push(Table {
-            is_imported: false,
-            elements,
-            is_dynamic,
-            image: match initial {
-                Some(_) if !is_dynamic => elements,
-                _ => 0,
-            },
-        });
     }
 
     /// An imported memory.
     pub(super) fn import_memory(&mut self) {
-        self.memories.push(Memory::new(true, 0));
+        self.images.import_memory();
     }
 
     /// A memory with that many bytes.
     pub(super) fn memory(&mut self, bytes: u64) {
-        self.memories.push(Memory::new(false, bytes));
+        self.images.memory(bytes);
     }
 
     /// A global with that value.
@@ -134,20 +83,11 @@ impl Startup {
         elements: u64,
         operators: Option<u64>,
     ) {
-        if !self.has_dynamic_elements && operators.is_none() {
-            let end = offset.number.map(|start| start.saturating_add(elements));
-            let table = usize::try_from(table).ok();
-            let table = table.and_then(|table| self.tables.get_mut(table));
-            if let (Some(table), Some(end)) = (table, end)
-                && !table.is_imported
-                && !table.is_dynamic
-                && end <= table.elements.min(TABLE_IMAGE_ELEMENTS_MAX)
-            {
-                table.image = table.image.max(end);
-                return;
-            }
+        let are_functions = operators.is_none();
+        let images = &mut self.images;
+        if images.elements(table, offset.number, elements, are_functions) {
+            return;
         }
-        self.has_dynamic_elements = true;
         self.operators(offset.operators, 1);
         self.operators(operators.unwrap_or(elements), elements);
         // As many checks of bounds.
@@ -158,37 +98,24 @@ impl Startup {
     /// An active data segment at that place of a memory.
     pub(super) fn data(&mut self, memory: u32, offset: &Constant, bytes: u64) {
         self.data_segments += 1;
-        let end = offset.number.map(|start| start.saturating_add(bytes));
-        let memory = usize::try_from(memory).ok();
-        let memory = memory.and_then(|memory| self.memories.get_mut(memory));
-        match (memory, offset.number, end) {
-            (Some(memory), Some(start), Some(end))
-                if !memory.is_imported && end <= memory.bytes =>
-            {
-                if bytes > 0 {
-                    memory.data_bytes = memory.data_bytes.saturating_add(bytes);
-                    memory.start = memory.start.min(start);
-                    memory.end = memory.end.max(end);
-                }
-            }
-            _ => self.has_dynamic_data = true,
-        }
+        self.images.data(memory, offset.number, bytes);
     }
 
     /// What is left to do when the module has ended.
     pub(super) fn finish(&mut self) -> Initialisation {
-        let tables: u64 = self.tables.iter().map(|table| table.image).sum();
+        let tables = self.images.table_elements();
         let table_bytes = tables.saturating_mul(TABLE_IMAGE_ELEMENT_BYTES);
-        let is_sparse = self.memories.iter().any(Memory::is_sparse);
-        let (memory_bytes, data) = if self.has_dynamic_data || is_sparse {
-            (0, self.data_segments)
-        } else {
-            let images = self.memories.iter().filter(|memory| memory.data_bytes > 0);
-            let images: Vec<u64> = images.map(Memory::image_bytes).collect();
-            let number = u64::try_from(images.len()).unwrap_or(u64::MAX);
-            (images.iter().sum(), number)
+        let memories = self.images.memory_images();
+        let data = match self.images.is_data_copied() {
+            true => self.data_segments,
+            false => u64::try_from(memories.len()).unwrap_or(u64::MAX),
         };
+        let memory_bytes: u64 = memories.iter().sum();
         self.data_code(data);
+        // One branch after the other.
+        let sizes = &mut self.sizes;
+        sizes.depths = sizes.blocks.saturating_mul(sizes.blocks) / 2;
+        sizes.deep_bytes = sizes.blocks.saturating_mul(sizes.bytes) / 2;
         Initialisation {
             image_bytes: table_bytes.saturating_add(memory_bytes),
             data,
@@ -215,37 +142,12 @@ impl Startup {
     }
 }
 
-impl Memory {
-    const fn new(is_imported: bool, bytes: u64) -> Self {
-        Self {
-            is_imported,
-            bytes,
-            data_bytes: 0,
-            start: u64::MAX,
-            end: 0,
-        }
-    }
-
-    const fn extent(&self) -> u64 {
-        self.end.saturating_sub(self.start)
-    }
-
-    /// Whether an image of it would be empty for the most part, and is not made.
-    const fn is_sparse(&self) -> bool {
-        let extent = self.extent();
-        self.data_bytes > 0
-            && extent >= self.data_bytes.saturating_mul(2)
-            && extent >= MEMORY_IMAGE_BYTES_MAX
-    }
-
-    const fn image_bytes(&self) -> u64 {
-        self.extent().saturating_add(2 * IMAGE_PAGE_BYTES)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What an image has before and after its data.
+    const PAGES: u64 = 128 << 10;
 
     fn number(value: u64) -> Constant {
         Constant {
@@ -265,7 +167,7 @@ mod tests {
         startup.data(0, &number(0), 1);
         startup.data(0, &number(100_000), 10);
         let found = startup.finish();
-        assert_eq!(found.image_bytes, 30 * 4 + 100_010 + 2 * IMAGE_PAGE_BYTES);
+        assert_eq!(found.image_bytes, 30 * 4 + 100_010 + PAGES);
         assert_eq!((found.code.accesses, found.data), (0, 1));
     }
 

@@ -146,10 +146,14 @@ impl Table {
                 protocol::write(to, &loaded)?;
                 to.flush()
             }
-            Request::Maze { slot, bytes } => {
+            Request::Maze {
+                slot,
+                digest,
+                bytes,
+            } => {
                 let maze = Maze::from_identity_bytes(&bytes);
                 let maze = maze.ok_or_else(|| io::Error::other("a maze cannot be read"))?;
-                put(&mut self.mazes, slot, (maze.digest(), Arc::new(maze)));
+                put(&mut self.mazes, slot, (digest, Arc::new(maze)));
                 Ok(())
             }
             Request::Run(batch) => self.run(&batch, to),

@@ -249,6 +249,7 @@ fn maze_slot(mazes: &mut Slots, talk: &mut Talk<'_>, spec: &MatchSpec) -> io::Re
     let slot = mazes.free_next();
     talk.send(&Request::Maze {
         slot,
+        digest: *digest,
         bytes: spec.maze.identity_bytes(),
     })?;
     mazes.fill(slot, *digest);

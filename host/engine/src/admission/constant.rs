@@ -4,22 +4,22 @@ use wasmparser::{ConstExpr, Operator, Result};
 
 /// A constant expression, as far as it matters to what is compiled of it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Constant {
+pub(crate) struct Constant {
     /// Operators, without the `end`.
-    pub(super) operators: u64,
+    pub(crate) operators: u64,
     /// The value, where the expression is one `i32.const`.
-    pub(super) number: Option<u64>,
+    pub(crate) number: Option<u64>,
     /// Whether it is one number of any type, which the compiler writes down as it is.
-    pub(super) is_number: bool,
+    pub(crate) is_number: bool,
     /// The function, where the expression is one `ref.func`.
-    pub(super) function: Option<u32>,
+    pub(crate) function: Option<u32>,
     /// Functions that it makes references to.
-    pub(super) functions: Vec<u32>,
+    pub(crate) functions: Vec<u32>,
 }
 
 impl Constant {
     /// Reads an expression, which need not be valid.
-    pub(super) fn read(expression: &ConstExpr<'_>) -> Result<Self> {
+    pub(crate) fn read(expression: &ConstExpr<'_>) -> Result<Self> {
         let mut constant = Self::default();
         for operator in expression.get_operators_reader() {
             let operator = operator?;
