@@ -233,7 +233,7 @@ mod tests {
             assert_eq!(streamed.expect("memory takes everything"), text.as_bytes());
             assert_eq!(read_results(text.as_bytes()), Ok(results.clone()));
             let one_per_line =
-                |line: &&str| line.trim_start().starts_with("{\"version\":1,\"key\":");
+                |line: &&str| line.trim_start().starts_with("{\"version\":2,\"key\":");
             let lines = text.lines().filter(one_per_line).count();
             assert_eq!(lines, results.matches.len());
         }
@@ -290,29 +290,29 @@ mod tests {
         check_error("[1]", &format!("line 1, column 3: {no_object}"));
         check_error("\nname,score", &format!("line 2, column 2: {no_object}"));
         check_error(
-            "{\"version\": 3",
+            "{\"version\": 4",
             "line 1, column 13: EOF while parsing an object",
         );
         check_error(
             "{\"schema\": 1, \"wasmouse\": \"0.1.0\"}",
-            "expected version 3 of the results document, found version 1, \
+            "expected version 4 of the results document, found version 1, \
              written by wasmouse 0.1.0",
         );
         check_error(
             "{\"version\": 7}",
-            "expected version 3 of the results document, found version 7",
+            "expected version 4 of the results document, found version 7",
         );
         check_error(
-            "{\"version\": 3,\n \"contest\": {\"wasmouse\": \"\\u001b\", \"engine\": 7}}",
+            "{\"version\": 4,\n \"contest\": {\"wasmouse\": \"\\u001b\", \"engine\": 7}}",
             "line 2, column 46: invalid type: integer `7`, expected a string",
         );
         check_error(
-            "{\"version\": 3, \"\\u001b[31m\": 0}",
+            "{\"version\": 4, \"\\u001b[31m\": 0}",
             "line 1, column 27: unknown field `\\u{1b}[31m`, \
              expected one of `version`, `contest`, `matches`, `summary`",
         );
         let text = written(&results());
-        let twice = text.replacen("\"matches\":", "\"version\": 3, \"matches\":", 1);
+        let twice = text.replacen("\"matches\":", "\"version\": 4, \"matches\":", 1);
         let error = read_results(twice.as_bytes()).expect_err("a field is there twice");
         assert!(
             error.to_string().ends_with(": duplicate field `version`"),
@@ -326,11 +326,11 @@ mod tests {
     fn a_document_of_another_version_is_named_with_its_writer() {
         let mut results = results();
         results.contest.wasmouse = HOSTILE.to_owned();
-        let text = written(&results).replacen("\"version\": 3", "\"version\": 4", 1);
+        let text = written(&results).replacen("\"version\": 4", "\"version\": 5", 1);
         assert_eq!(
             read_results(text.as_bytes()),
             Err(ReadError::Version {
-                found: 4,
+                found: 5,
                 wasmouse: Some(escape::for_terminal(HOSTILE)),
             })
         );

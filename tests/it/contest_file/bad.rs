@@ -135,6 +135,16 @@ pub const BAD_FILES: &[BadFile] = &[
         "version = 1\n{robots}{mazes}[[seeds]]\ncount = 1\n",
     ),
     (
+        "array instead of a table",
+        Schema,
+        "version = 1\nseeds = [0, 3]\n{robots}{mazes}",
+    ),
+    (
+        "array instead of a robot",
+        Schema,
+        "version = 1\nrobots = [[\"a.wasm\"]]\n{mazes}",
+    ),
+    (
         "robot that is a string",
         Schema,
         "version = 1\nrobots = [\"flood\"]\n{mazes}",

@@ -33,9 +33,11 @@ mod error;
 mod explain;
 mod place;
 mod suggest;
+mod tables;
 mod values;
 
 pub use document::{BYTES_MAX, Document, decode, read};
 pub use error::{ConfigError, Excerpt};
 pub use suggest::suggestion;
+pub use tables::{table, tables};
 pub use values::{FilePath, Integer, Name};

@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::super::config::{FilePath, Integer, Name};
+use super::super::config::{FilePath, Integer, Name, table, tables};
 use super::super::scoring::Scoring;
 use super::mazes::MazesEntry;
 use super::options::{ClassEntry, Outputs, ReportOptions, RunOptions, SeedsEntry};
@@ -24,31 +24,31 @@ pub struct ContestFile {
     /// The database with the results. Default: the contest file's own name, with the ending `.db`.
     pub store: Option<FilePath>,
     /// Who takes part. At least one entry.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "tables")]
     pub robots: Vec<RobotsEntry>,
     /// Classes of robots. Default: none.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "tables")]
     pub classes: Vec<ClassEntry>,
     /// Sets of mazes. At least one.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "tables")]
     pub mazes: Vec<MazesEntry>,
     /// The seeds of every maze.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "table")]
     pub seeds: SeedsEntry,
     /// The rules of all matches.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "table")]
     pub rules: RulesEntry,
     /// How matches become ranks.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "table")]
     pub scoring: Scoring,
     /// How matches are played.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "table")]
     pub run: RunOptions,
     /// What reports show.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "table")]
     pub report: ReportOptions,
     /// The reports to write.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "table")]
     pub outputs: Outputs,
 }
 

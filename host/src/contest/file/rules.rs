@@ -3,7 +3,7 @@
 use serde::Deserialize;
 use wasmouse_core::game::{BudgetScope, GameRules, Ruleset, SandboxLimits};
 
-use super::super::config::{Integer, Name};
+use super::super::config::{Integer, Name, table};
 use super::options::{FUEL_MAX, MEMORY_BYTES_MAX};
 
 /// A bundled ruleset, or one with numbers of its own.
@@ -17,8 +17,10 @@ pub struct RulesEntry {
     /// The version of the ruleset. Default: that of `base`.
     pub version: Option<Integer<1, { u32::MAX as u64 }>>,
     /// Rules of the game that are not those of `base`.
+    #[serde(deserialize_with = "table")]
     pub game: GameEntry,
     /// Limits on robots that are not those of `base`.
+    #[serde(deserialize_with = "table")]
     pub sandbox: SandboxEntry,
 }
 

@@ -5,7 +5,7 @@ use std::fmt;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, Unexpected, Visitor};
 
-use super::super::config::{FilePath, Integer, Name};
+use super::super::config::{FilePath, Integer, Name, table, tables};
 use super::super::file::{RulesEntry, SeedsEntry};
 
 /// The version of rubrics; raised when a reader of the old one would go wrong.
@@ -18,15 +18,15 @@ pub(super) struct File {
     #[expect(dead_code, reason = "it has been checked before")]
     pub(super) version: Integer<1, RUBRIC_VERSION>,
     pub(super) name: Option<Name>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "table")]
     pub(super) rules: RulesEntry,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "table")]
     pub(super) seeds: SeedsEntry,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "tables")]
     pub(super) mazes: Vec<MazesEntry>,
     pub(super) pass_percent: Option<Decimal>,
     pub(super) pass_points: Option<Integer<0, 10_000_000>>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "tables")]
     pub(super) criteria: Vec<Entry>,
 }
 
