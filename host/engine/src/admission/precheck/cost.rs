@@ -3,16 +3,15 @@
 //! The estimate ([`Sizes::work_ns`]) is a sum of terms with coefficients that were
 //! measured with a release build of wasmtime 48 on one thread of a 2-core machine. Generators of
 //! bad cases pushed one term at a time, every function of large robots was timed by itself, and the
-//! coefficients are the least ones with which no generator by itself takes more than 0.85 of its estimate. A
-//! build with debug assertions takes more: it checks what the compiler did, again with time that
-//! grows with the square of a function. The terms
-//! that are products are the ones that make small files dangerous; each names where
-//! in Cranelift it comes from.
+//! coefficients are the least ones with which no generator by itself takes more than 0.85 of its
+//! estimate. A build with debug assertions takes more: it checks what the compiler did, again with
+//! time that grows with the square of a function. The terms that are products are the ones that make
+//! small files dangerous; each names where in Cranelift it comes from.
 //!
-//! What one function leaves behind for the next ones is not estimated. `conflict_set` of
-//! `regalloc2::ion` keeps its capacity, which is emptied for every value that finds no register: after
-//! a function of 800 KB with 20 values on the stack, entries with 78 parameters take 12 times as
-//! long, 3.4 times their estimate.
+//! What one function leaves behind for the next ones is only estimated for entries
+//! (`module::entry_ns`). `conflict_set` of `regalloc2::ion` keeps its capacity, and is emptied for
+//! every value that finds no register: after a function of 800 KB with 20 values on the stack,
+//! entries with 78 parameters take 12 times as long, and functions that spill twice as long.
 
 use super::super::rejection::Rejection;
 use super::flow::Joins;

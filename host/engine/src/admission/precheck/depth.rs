@@ -172,9 +172,7 @@ mod tests {
         depth.begin();
         for _ in 0..100 {
             depth.condition();
-            depth.condition();
-            depth.close();
-            depth.otherwise();
+            depth.fork(10);
             depth.repeat();
             depth.close();
             depth.close();

@@ -270,6 +270,13 @@ const ENTRY_NS: u64 = 150_000;
 /// The same for each parameter and result.
 const VALUE_NS: u64 = 20_000;
 
+/// Parameters and results that find a register, about.
+const IN_REGISTERS: u64 = 14;
+
+/// Time for each of the others. Most of it is spent on a hash set that the register allocator keeps
+/// from function to function, and is taken only after a function that made it large.
+const SPILLED_NS: u64 = 70_000;
+
 /// Memory for a compiled entry of a type with that many parameters and results.
 const fn entry_bytes(values: u64) -> u64 {
     5_500 + values * 100
@@ -280,7 +287,7 @@ const PARAMETER_NS: u64 = 2_000;
 
 /// Time to compile an entry of a type with that many parameters and results.
 pub(super) const fn entry_ns(values: u64) -> u64 {
-    ENTRY_NS + values * VALUE_NS
+    ENTRY_NS + values * VALUE_NS + values.saturating_sub(IN_REGISTERS) * SPILLED_NS
 }
 
 fn items(count: u32, gauge: &mut Gauge<'_>, byte: u64) -> Result<(), Rejection> {
