@@ -76,8 +76,8 @@ fn siblings() -> Vec<Case> {
         over("40000-globals-of-functions", || {
             beside(&bombs::reference_globals(40_000))
         }),
-        over("40000-globals-written", || {
-            beside(&bombs::written_globals(40_000, 0))
+        over("60000-globals-written", || {
+            beside(&bombs::written_globals(60_000, 0))
         }),
         over("60-segments-of-90000-elements", || {
             beside(&bombs::passive_elements(60, 90_000))

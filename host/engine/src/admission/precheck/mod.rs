@@ -46,15 +46,16 @@
 //! | variables times blocks | 64,000,000 | 315,600 | 952,840 | 19,394,640 |
 //! | values carried | 80,000 | 15,119 | 8,948 | 48,533 |
 //! | estimated MiB, one function | 600 | 185 | 79 | 305 |
-//! | estimated ms, one function | 20,000 | 2,939 | 746 | 9,300 |
-//! | estimated ms, the file | 65,000 | 27,960 | 6,001 | 50,283 |
+//! | estimated ms, one function | 20,000 | 1,468 | | 6,292 |
+//! | estimated ms, the file | 42,000 | 21,765 | | 35,913 |
 //!
 //! # What the estimate is worth
 //!
 //! Generators of bad files, each pushing one or two terms, were compiled with
 //! wasmtime 48 on one thread, and the terms were raised to what they took. The robots
-//! above take 0.44 to 0.66 of their estimate, and the generators up to about 0.8 of it:
-//! indirect calls, arithmetic after a long chain of blocks, and values that are spilled.
+//! above take 0.5 to 0.7 of their estimate, and the generators, each by itself, up to 0.85 of it:
+//! tables of branches, exits of one block, and values that are spilled. After a function that
+//! spills a lot, others that spill take longer (`cost`).
 //! `cargo xtask fuzz compile_cost` searches for files that take more. Checking alone,
 //! with a process for it, takes 0.2 s for the Python robot in a release build, and
 //! 0.01 s for one in C. Whatever the estimate misses, the process that compiles has
