@@ -40,6 +40,9 @@ pub struct StoreSink<'s> {
     rules: Ruleset,
     rules_digest: Digest,
     kept: KeptTranscripts,
+    /// The mazes that came before. Matches that end in any order name theirs again and again, and
+    /// writing a maze takes four statements.
+    announced: HashSet<Digest>,
     /// The oracle score of the last maze.
     oracle: Option<Score>,
     /// By robot and variant, the best match so far; `None` for a player without one.
@@ -88,6 +91,7 @@ impl<'s> StoreSink<'s> {
             engine,
             rules,
             kept,
+            announced: HashSet::new(),
             oracle: None,
             best: HashMap::new(),
             ids: IdCache::default(),
@@ -192,6 +196,9 @@ impl<'s> StoreSink<'s> {
 impl Sink for StoreSink<'_> {
     fn maze(&mut self, maze: &ContestMaze) -> io::Result<()> {
         self.oracle = maze.oracle;
+        if !self.announced.insert(maze.digest) {
+            return Ok(());
+        }
         self.batch.mazes.push(MazeRow::new(maze));
         self.flush_if_full()
     }
