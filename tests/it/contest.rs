@@ -480,6 +480,27 @@ fn hidden_mazes_are_committed_to_and_revealed() {
 }
 
 #[test]
+fn no_report_takes_the_place_of_the_contest() {
+    let folder = folder(SMALL);
+    succeeds(folder.path(), &["run", "--shard", "1/20"]);
+    for (name, what) in [
+        ("contest.toml", "the contest file"),
+        ("contest.db", "the store"),
+    ] {
+        let before = fs::read(folder.path().join(name)).expect("a file");
+        let arguments = ["report", "--html", name, "--force"];
+        let ran = ran(&mut contest(folder.path(), &arguments));
+        assert_eq!(ran.status.code(), Some(3), "{}", ran.stderr);
+        assert!(
+            ran.stderr.contains(&format!("it is {what}")),
+            "{}",
+            ran.stderr
+        );
+        assert_eq!(fs::read(folder.path().join(name)).expect("a file"), before);
+    }
+}
+
+#[test]
 fn what_is_no_store_is_named_and_kept() {
     let folder = folder(SMALL);
     let store = folder.path().join("contest.db");

@@ -7,7 +7,7 @@ use wasmouse_core::record::MatchRecord;
 use super::json;
 use crate::contest::{ContestMatch, Sink};
 
-/// Writes one [`MatchRecord`](wasmouse_core::record::MatchRecord) a line, in its serialised
+/// Writes one [`MatchRecord`] a line, in its serialised
 /// form. Matches that the host could not play have no record and no line.
 #[derive(Debug)]
 pub struct JsonLines<W>(W);

@@ -17,7 +17,7 @@ use super::planned::PlannedContest;
 use crate::contest::ScoreMatrix;
 use crate::report::contest::{self as reports, ContestReport, ReportOptions};
 use crate::report::jsonl::record_line;
-use crate::report::text::Text;
+use crate::report::text::{Text, text};
 use crate::store::{Store, StoreError, StoreErrorKind};
 
 const EXAMPLES: &str = "\
@@ -176,6 +176,7 @@ impl Writer<'_> {
         // Before anything else, so that no report is lost over the name of another.
         let mut drafts = Vec::with_capacity(files.len());
         for (kind, path) in files {
+            self.check_path(&path)?;
             let draft = Draft::create(&path, existing)?;
             drafts.push((kind, path, draft));
         }
@@ -221,6 +222,26 @@ impl Writer<'_> {
             message!("wrote {}", Text::of_path(&path));
         }
         Ok(())
+    }
+
+    /// No report takes the place of what it is made from, whatever `--force` says.
+    fn check_path(&self, path: &Path) -> Result<(), Failure> {
+        let is = |other: &Path| match (path.canonicalize(), other.canonicalize()) {
+            (Ok(path), Ok(other)) => path == other,
+            _ => false,
+        };
+        let what = if is(self.contest.folder.path()) {
+            "the contest file"
+        } else if is(self.store.path()) {
+            "the store"
+        } else {
+            return Ok(());
+        };
+        Err(Failure::input(text!(
+            "failed to write `{}`: it is {}",
+            Text::of_path(path),
+            what
+        )))
     }
 
     fn options(&self) -> ReportOptions {
