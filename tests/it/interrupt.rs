@@ -5,6 +5,7 @@
 
 use std::collections::HashMap;
 use std::fs;
+use std::os::unix::process::CommandExt as _;
 use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -37,7 +38,16 @@ fn has_thread(pid: u32, name: &str) -> bool {
 }
 
 fn start(arguments: &[&str]) -> Child {
-    wasmouse()
+    let mut command = wasmouse();
+    // The tests themselves may run under `nohup`.
+    let take_hangups = || {
+        // SAFETY: the call takes numbers, and may be made between fork and exec.
+        unsafe { libc::signal(libc::SIGHUP, libc::SIG_DFL) };
+        Ok(())
+    };
+    // SAFETY: the closure only makes that call.
+    unsafe { command.pre_exec(take_hangups) };
+    command
         .args(arguments)
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
