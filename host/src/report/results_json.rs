@@ -158,7 +158,7 @@ struct AnyContest {
 /// let error = read_results(br#"{"version": 9, "contest": {"wasmouse": "0.9.0"}}"#);
 /// assert_eq!(
 ///     error.expect_err("another version").to_string(),
-///     "expected version 3 of the results document, found version 9, written by wasmouse 0.9.0"
+///     "expected version 4 of the results document, found version 9, written by wasmouse 0.9.0"
 /// );
 /// ```
 pub fn read_results(bytes: &[u8]) -> Result<Results, ReadError> {
