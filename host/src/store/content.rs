@@ -28,8 +28,8 @@ impl Store {
     }
 
     /// Seals the store: writes its content digest into it, because a run has ended. Whoever
-    /// changes the store after that without wasmouse breaks the seal, as far as he does not
-    /// compute it anew: it finds accidents and careless changes, not forgers. Writing through
+    /// changes the store after that without wasmouse breaks the seal, unless they
+    /// compute it again: it finds accidents and careless changes, not forgers. Writing through
     /// wasmouse removes it.
     ///
     /// # Errors

@@ -4,13 +4,13 @@
 //! by someone, is refused as a whole:
 //!
 //! - the database itself, and the digests of engines, rules and mazes;
-//! - the seal, which finds every change by someone who did not seal the store anew;
+//! - the seal, which finds every change by someone who did not seal the store again;
 //! - records whose transcripts are kept, by replaying them: verdict, steps and counts follow from
 //!   the rules, whatever the store says;
 //! - records that both stores have, by comparing them.
 //!
 //! Not found is a change of a record without a transcript, or of fuel and memory, or an invented
-//! transcript, by someone who seals the store anew: a seal has no secret. Playing some of the
+//! transcript, by someone who seals the store again: a seal has no secret. Playing some of the
 //! matches again finds it, and only that.
 
 use std::collections::{HashMap, HashSet};

@@ -132,9 +132,9 @@ fn what_is_not_what_was_published_is_not_installed() {
     fs::remove_file(without.checksum()).expect("a checksum");
     rejects(&without, &of, "hint: without its checksum");
 
-    for nonsense in ["", "404 Not Found\n", "abc123  x.tar.gz\n", &"g".repeat(64)] {
+    for invalid in ["", "404 Not Found\n", "abc123  x.tar.gz\n", &"g".repeat(64)] {
         let strange = Release::new(OTHER, "");
-        fs::write(strange.checksum(), nonsense).expect("a checksum");
+        fs::write(strange.checksum(), invalid).expect("a checksum");
         rejects(&strange, &of, "has no SHA-256 in it");
     }
 

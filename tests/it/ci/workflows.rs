@@ -222,10 +222,10 @@ fn commands_exist_with_their_arguments() {
 
 #[test]
 fn wrong_arguments_are_noticed() {
-    let code = "  wasmouse run \"$A\" --no-such \\\n  x || true\ncargo xtask nonsense";
+    let code = "  wasmouse run \"$A\" --no-such \\\n  x || true\ncargo xtask unknown";
     let calls = calls(code);
     let arguments: Vec<_> = calls.iter().map(|it| it.1.join(" ")).collect();
-    assert_eq!(arguments, ["run 1 --no-such x", "nonsense"]);
+    assert_eq!(arguments, ["run 1 --no-such x", "unknown"]);
     let ran = ran(Command::new(path()).args(&calls[0].1).arg("--help"));
     assert_eq!(ran.status.code(), Some(2));
     assert_eq!(

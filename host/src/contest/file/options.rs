@@ -100,7 +100,7 @@ impl RunOptions {
 pub enum KeepTranscripts {
     /// None.
     None,
-    /// The best one of each robot in each maze.
+    /// That of the best match of each robot in each of its variants, over all mazes.
     #[default]
     Best,
     /// Those of all matches: about one byte a step.

@@ -204,7 +204,7 @@ fn a_changed_shard_is_refused_by_name() {
     tamper(&path, &change("fuel_steps = 1", 5));
     check_refused(&path, "its content is not the one that was sealed");
 
-    // Sealed anew, and its transcripts say otherwise.
+    // Sealed again, and its transcripts say otherwise.
     let (_folder, path) = shard(&contest, KeptTranscripts::All, |maze| maze == 4);
     tamper(&path, &change("bumps = bumps + 1", 5));
     Store::open_existing(&path)
@@ -217,7 +217,7 @@ fn a_changed_shard_is_refused_by_name() {
          the record does not follow from its transcript",
     );
 
-    // Sealed anew, without transcripts, and another shard says otherwise.
+    // Sealed again, without transcripts, and another shard says otherwise.
     let (_folder, path) = shard(&contest, KeptTranscripts::None, |maze| maze == 1);
     tamper(&path, &change("fuel_steps = 1", 2));
     Store::open_existing(&path)
@@ -253,7 +253,7 @@ fn a_changed_shard_is_refused_by_name() {
         let (_folder, path) = shard(&contest, KeptTranscripts::None, |maze| maze == 4);
         tamper(&path, &format!("{sql}; DELETE FROM seal"));
         if let Ok(mut store) = Store::open_existing(&path) {
-            // Whoever changes it may seal it anew, if that is possible.
+            // Whoever changes it may seal it again, if that is possible.
             let _ = store.seal();
         }
         let (_folder, mut store) = new_store();
