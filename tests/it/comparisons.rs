@@ -6,6 +6,7 @@ use std::process::Command;
 use serde_json::Value;
 
 use crate::binary::{Ran, ran, wasmouse};
+use crate::pointers::objects;
 
 const COMPARISON: &str = include_str!("../../host/schema/comparison.schema.json");
 const STUDY: &str = include_str!("../../host/schema/study.schema.json");
@@ -36,7 +37,7 @@ fn check(schema: &str, arguments: &str) {
         panic!("{arguments}: {} at {}", error, error.instance_path());
     }
     let mut changed = 0;
-    for pointer in objects(&document, String::new()) {
+    for pointer in objects(&document) {
         let fields = document.pointer(&pointer).and_then(Value::as_object);
         for field in fields.expect("an object").keys() {
             let mut other = document.clone();
@@ -56,27 +57,6 @@ fn check(schema: &str, arguments: &str) {
         }
     }
     assert!(changed > 30, "only {changed} fields");
-}
-
-/// Pointers to all objects of a document.
-fn objects(value: &Value, pointer: String) -> Vec<String> {
-    let inner = |key: String, value: &Value| objects(value, format!("{pointer}/{key}"));
-    match value {
-        Value::Object(fields) => {
-            let fields = fields.iter();
-            let inner: Vec<String> = fields
-                .flat_map(|(key, it)| inner(key.clone(), it))
-                .collect();
-            [pointer].into_iter().chain(inner).collect()
-        }
-        Value::Array(items) => {
-            let items = items.iter().enumerate();
-            items
-                .flat_map(|(index, it)| inner(index.to_string(), it))
-                .collect()
-        }
-        _ => Vec::new(),
-    }
 }
 
 #[test]

@@ -428,11 +428,14 @@ match_fuel_max = 2_000_000_000
     assert!(table.contains("   1  good "), "{table}");
     // What was withdrawn is the organiser's to decide, and not played again by itself.
     let again = succeeds(folder.path(), &["run"]);
-    assert!(again.stdout.contains("waits"), "{}", again.stdout);
+    let reason = "`waits`: incomplete: 2 of its matches did not end in time";
+    assert!(again.stdout.contains(reason), "{}", again.stdout);
+    assert!(again.stderr.contains("nothing to play"), "{}", again.stderr);
+    let retried = succeeds(folder.path(), &["run", "--retry"]);
     assert!(
-        again.stderr.contains("did not end in time"),
+        !retried.stderr.contains("nothing to play"),
         "{}",
-        again.stderr
+        retried.stderr
     );
 }
 
@@ -477,6 +480,88 @@ fn hidden_mazes_are_committed_to_and_revealed() {
         "{}",
         changed.stderr
     );
+}
+
+/// What the contest file hides is hidden, and shown to the organiser.
+#[test]
+fn reports_show_what_the_contest_file_allows() {
+    let options = "[report]\nshow_top = 2\nhide_names = true\nfreeze = true\n";
+    let folder = folder(&SMALL.replace("[run]", &format!("{options}[run]")));
+    let shown = succeeds(folder.path(), &["run"]).stdout;
+    assert!(
+        !shown.contains("flood") && !shown.contains("random"),
+        "{shown}"
+    );
+    let ranks = |text: &str| {
+        let lines = text.lines().filter(|line| line.starts_with("   "));
+        lines.take_while(|line| !line.is_empty()).count()
+    };
+    let all = succeeds(
+        folder.path(),
+        &["report", "--organiser", "--matches-csv", "all.csv"],
+    )
+    .stdout;
+    assert!(
+        all.contains("flood:reset") && all.contains("random"),
+        "{all}"
+    );
+    assert!(ranks(&shown) < ranks(&all), "{shown}\n{all}");
+    let matches = fs::read_to_string(folder.path().join("all.csv")).expect("a file");
+    assert!(
+        matches.contains("gen:braid"),
+        "the organiser sees hidden mazes"
+    );
+    assert_eq!(
+        matches.lines().count(),
+        4 * 161 * 2 + 1,
+        "a line for each match, and names"
+    );
+
+    // Frozen reports stay as they are, whatever is played.
+    let before = reports(folder.path());
+    let file = folder.path().join("contest.toml");
+    let more = fs::read_to_string(&file)
+        .expect("a file")
+        .replace("1..=60", "1..=61");
+    fs::write(&file, more).expect("a file");
+    let ran = succeeds(folder.path(), &["run"]);
+    assert!(
+        ran.stderr.contains("kept out.html: reports are frozen"),
+        "{}",
+        ran.stderr
+    );
+    assert!(
+        before == reports(folder.path()),
+        "a frozen report was written"
+    );
+}
+
+/// A part that was interrupted is merged when that is asked for.
+#[test]
+fn parts_without_a_seal_are_merged_on_request_only() {
+    let folder = folder(SMALL);
+    succeeds(
+        folder.path(),
+        &["run", "--shard", "1/4", "--store", "part.db"],
+    );
+    let connection = rusqlite::Connection::open(folder.path().join("part.db")).expect("SQLite");
+    connection
+        .execute("DELETE FROM seal", [])
+        .expect("as before its end");
+    drop(connection);
+    let merge = ["merge", "contest.db", "part.db"];
+    let refused = ran(&mut contest(folder.path(), &merge));
+    assert_eq!(refused.status.code(), Some(1), "{}", refused.stderr);
+    assert!(
+        refused.stderr.contains("it has no seal"),
+        "{}",
+        refused.stderr
+    );
+    succeeds(
+        folder.path(),
+        &["merge", "--unsealed", "contest.db", "part.db"],
+    );
+    assert!(matches(&folder.path().join("contest.db")) > 0);
 }
 
 #[test]

@@ -60,6 +60,8 @@ mod memory;
 mod minnett;
 /// Good robots in a contest with every hostile one.
 mod mixed_contest;
+/// Where the objects in a JSON document are.
+mod pointers;
 /// The prebuilt robots against their sources and their manifest.
 mod prebuilt;
 /// The check before compilation: limits, bombs, proposals.

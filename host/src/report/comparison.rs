@@ -32,6 +32,7 @@ use wasmouse_core::Digest;
 
 use super::escape::for_terminal;
 use super::json;
+use super::paired::PairedNumbers;
 use super::standings::NONE;
 use super::table::Column::{Number, Text};
 use super::table::{self, Layout};
@@ -72,7 +73,7 @@ struct Comparison {
     first: String,
     second: String,
     #[serde(flatten)]
-    all: Numbers,
+    all: PairedNumbers,
     by_size: Vec<OfSize>,
 }
 
@@ -80,37 +81,7 @@ struct Comparison {
 struct OfSize {
     size: u8,
     #[serde(flatten)]
-    numbers: Numbers,
-}
-
-/// The fields of a [`PairedComparison`].
-#[derive(Serialize)]
-struct Numbers {
-    verdict: &'static str,
-    mazes: u64,
-    wins: u64,
-    ties: u64,
-    losses: u64,
-    difference_thousandths: Option<i64>,
-    interval_thousandths: Option<[i64; 2]>,
-    standard_error_thousandths: Option<u64>,
-    mazes_to_decide: Option<u64>,
-}
-
-impl Numbers {
-    fn new(compared: &PairedComparison) -> Self {
-        Self {
-            verdict: compared.verdict.name(),
-            mazes: compared.mazes,
-            wins: compared.wins,
-            ties: compared.ties,
-            losses: compared.losses,
-            difference_thousandths: compared.difference.map(Mean::thousandths),
-            interval_thousandths: compared.interval_thousandths,
-            standard_error_thousandths: compared.standard_error_thousandths,
-            mazes_to_decide: compared.mazes_to_decide,
-        }
-    }
+    numbers: PairedNumbers,
 }
 
 impl Comparisons {
@@ -133,7 +104,7 @@ impl Comparisons {
         let sizes: BTreeSet<u8> = matrix.mazes.iter().map(|maze| maze.dimension).collect();
         let compare = |second: usize| {
             let numbers = |filter: MazeFilter| {
-                Numbers::new(&PairedComparison::new(matrix, scoring, filter, (0, second)))
+                PairedNumbers::new(&PairedComparison::new(matrix, scoring, filter, (0, second)))
             };
             let by_size = sizes.iter().map(|&size| OfSize {
                 size,
@@ -211,7 +182,7 @@ impl Comparisons {
 }
 
 /// What it would take to decide; `None` when it is decided.
-fn to_decide(all: &Numbers) -> Option<String> {
+fn to_decide(all: &PairedNumbers) -> Option<String> {
     if all.verdict != PairedVerdict::Undecided.name() {
         return None;
     }
@@ -248,7 +219,7 @@ impl Comparison {
             Text("Verdict"),
         ];
         let mut table = table::new_table(&columns, layout.lines);
-        let row = |size: String, numbers: &Numbers| {
+        let row = |size: String, numbers: &PairedNumbers| {
             let interval = numbers.interval_thousandths;
             let interval = interval.map(|it| it.map(signed));
             [

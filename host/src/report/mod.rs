@@ -20,6 +20,7 @@ pub mod jsonl;
 pub mod maze_check;
 pub mod maze_solve;
 mod moment;
+mod paired;
 mod paths;
 pub mod picture;
 pub mod results_json;

@@ -20,6 +20,8 @@ use wasmouse_core::game::Ruleset;
 
 use bad::{BAD_FILES, SeenBy};
 
+use crate::pointers::objects;
+
 const SCHEMA: &str = include_str!("../../../host/schema/contest.schema.json");
 const REFERENCE: &str = include_str!("../../../docs/CONTEST.md");
 
@@ -287,24 +289,6 @@ fn paths_are_told_from_names() {
     );
 }
 
-/// The pointers of all objects in a document.
-fn objects(value: &Value, pointer: &str, found: &mut Vec<String>) {
-    match value {
-        Value::Object(fields) => {
-            found.push(pointer.to_owned());
-            for (name, value) in fields {
-                objects(value, &format!("{pointer}/{name}"), found);
-            }
-        }
-        Value::Array(values) => {
-            for (index, value) in values.iter().enumerate() {
-                objects(value, &format!("{pointer}/{index}"), found);
-            }
-        }
-        _ => {}
-    }
-}
-
 #[test]
 fn parser_and_schema_agree_about_missing_and_added_keys() {
     let validator = validator();
@@ -321,8 +305,7 @@ fn parser_and_schema_agree_about_missing_and_added_keys() {
         );
         parsed.is_ok()
     };
-    let mut pointers = Vec::new();
-    objects(&document, "", &mut pointers);
+    let pointers = objects(&document);
     assert!(pointers.len() > 10, "{pointers:?}");
     let mut required = Vec::new();
     for pointer in pointers {

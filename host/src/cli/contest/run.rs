@@ -121,7 +121,6 @@ impl Args {
             }
         }
         let matrix = contest.matrix(&store, &not_admitted)?;
-        print_unplayed(&matrix);
         let has_failed = not_admitted
             .iter()
             .any(|it| matches!(it, Some(NotAdmitted::Failed(_))))
@@ -129,6 +128,8 @@ impl Args {
         if self.shard().is_all() {
             report::publish(contest, &store, &matrix)?;
         } else {
+            // The reports say so otherwise.
+            print_unplayed(&matrix);
             message!(
                 "{} of {} matches are in {}; `wasmouse contest merge` joins the parts",
                 matrix.played(),
@@ -161,6 +162,11 @@ impl Args {
         store
             .submit(&submissions(contest, left, &entrants))
             .map_err(store_failure)?;
+        let playable = left.playable(&entrants);
+        if playable == 0 {
+            message!("nothing to play: only robots that are not admitted have matches left");
+            return Ok(entrants);
+        }
         let before = contest.matrix(store, &contest.rejections(store)?)?;
         let plan = Plan {
             entrants: entrants.clone(),
@@ -173,7 +179,7 @@ impl Args {
             rules: contest.rules.clone(),
         };
         let scoring = &contest.folder.file.scoring;
-        let progress = Progress::new(&before, scoring, left.playable(&entrants));
+        let progress = Progress::new(&before, scoring, playable);
         let kept = match options.keep_transcripts {
             KeepTranscripts::None => KeptTranscripts::None,
             KeepTranscripts::Best => KeptTranscripts::Best,

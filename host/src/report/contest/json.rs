@@ -15,6 +15,7 @@ use super::view::{Part, View};
 use super::words::thousandths;
 use crate::contest::{Method, NotAdmitted, RankingLine, RobotState, Seeds, TieBreak};
 use crate::report::json::document;
+use crate::report::paired::PairedNumbers;
 
 /// The version of the document; raised when a reader of the old one would go wrong.
 pub const REPORT_VERSION: u32 = 1;
@@ -160,15 +161,8 @@ struct RegretEntry {
 struct ComparisonEntry<'a> {
     first: &'a str,
     second: &'a str,
-    verdict: &'static str,
-    mazes: u64,
-    wins: u64,
-    ties: u64,
-    losses: u64,
-    difference_thousandths: Option<i64>,
-    interval_thousandths: Option<[i64; 2]>,
-    standard_error_thousandths: Option<u64>,
-    mazes_to_decide: Option<u64>,
+    #[serde(flatten)]
+    numbers: PairedNumbers,
 }
 
 /// The document, indented, with a newline at its end.
@@ -293,19 +287,10 @@ fn ranking<'a>(view: &'a View<'a>, part: &Part<'a>) -> RankingEntry<'a> {
 }
 
 fn comparison<'a>(view: &'a View<'a>, compared: &Compared) -> ComparisonEntry<'a> {
-    let it = &compared.comparison;
     ComparisonEntry {
         first: view.name(compared.first),
         second: view.name(compared.second),
-        verdict: it.verdict.name(),
-        mazes: it.mazes,
-        wins: it.wins,
-        ties: it.ties,
-        losses: it.losses,
-        difference_thousandths: thousandths(it.difference),
-        interval_thousandths: it.interval_thousandths,
-        standard_error_thousandths: it.standard_error_thousandths,
-        mazes_to_decide: it.mazes_to_decide,
+        numbers: PairedNumbers::new(&compared.comparison),
     }
 }
 
