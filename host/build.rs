@@ -1,4 +1,5 @@
-//! Collects what `wasmouse new` puts into a project: the SDK and the WIT.
+//! Collects what `wasmouse new` puts into a project: the SDK and the WIT for Rust, and the
+//! example robot of every other language.
 //!
 //! The SDK is not on crates.io, so a new project gets a copy, and a copy cannot
 //! refer to this workspace: its manifest is written out in full here.
@@ -7,11 +8,27 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
+/// The folder with an example robot for each language but Rust.
+const LANGUAGES: &str = "example-robots/languages";
+
+/// What is left in an example robot's folder by building it, and is no part of a new project.
+const BUILT: [&str; 9] = [
+    "node_modules",
+    ".venv",
+    "__pycache__",
+    ".zig-cache",
+    "zig-out",
+    "zig-pkg",
+    "build",
+    "target",
+    "dist",
+];
+
 fn main() {
     let host = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
     let root = host.parent().expect("host is a folder in the repository");
     let output = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
-    for input in ["Cargo.toml", "guest-sdk", "wit/robot.wit"] {
+    for input in ["Cargo.toml", "guest-sdk", "wit/robot.wit", LANGUAGES] {
         println!("cargo::rerun-if-changed={}", root.join(input).display());
     }
 
@@ -22,22 +39,59 @@ fn main() {
     files.push(("wit/robot.wit".to_owned(), root.join("wit/robot.wit")));
     files.sort();
 
+    fs::write(output.join("vendor.rs"), table(&files)).expect("the output folder is writable");
+    let languages = languages(&root.join(LANGUAGES));
+    fs::write(output.join("languages.rs"), languages).expect("the output folder is writable");
+}
+
+/// The files as an expression of Rust: a slice of names and contents.
+fn table(files: &[(String, PathBuf)]) -> String {
     let mut table = "&[\n".to_owned();
-    for (name, path) in &files {
+    for (name, path) in files {
         writeln!(table, "    ({name:?}, include_str!({path:?})),").expect("writing to a string");
     }
     table.push_str("]\n");
-    fs::write(output.join("vendor.rs"), table).expect("the output folder is writable");
+    table
 }
 
-/// All files below `folder`, under the name that they get in a project.
+/// The example robots as an expression of Rust: a slice of languages and their files.
+fn languages(folder: &Path) -> String {
+    let entries = fs::read_dir(folder).expect("a folder of the repository");
+    let mut folders: Vec<PathBuf> = entries
+        .map(|entry| entry.expect("a readable folder").path())
+        .filter(|path| path.is_dir())
+        .collect();
+    folders.sort();
+    let mut table_of_tables = "&[\n".to_owned();
+    for folder in folders {
+        let language = folder.file_name().expect("an entry has a name");
+        let language = language.to_string_lossy();
+        let mut files = Vec::new();
+        collect(&folder, "", &mut files);
+        files.retain(|(name, _)| Path::new(name).extension().is_none_or(|it| it != "wasm"));
+        files.sort();
+        let files = table(&files);
+        writeln!(table_of_tables, "({language:?}, {files}),").expect("writing to a string");
+    }
+    table_of_tables.push_str("]\n");
+    table_of_tables
+}
+
+/// All files below `folder` that are not the result of a build, under the name that they get in a
+/// project.
 fn collect(folder: &Path, name: &str, files: &mut Vec<(String, PathBuf)>) {
     for entry in fs::read_dir(folder).expect("a folder of the repository") {
         let path = entry.expect("a readable folder").path();
         let file_name = path.file_name().expect("an entry has a name");
-        let name = format!("{name}/{}", file_name.to_string_lossy());
+        let file_name = file_name.to_string_lossy();
+        let name = match name {
+            "" => file_name.to_string(),
+            folder => format!("{folder}/{file_name}"),
+        };
         if path.is_dir() {
-            collect(&path, &name, files);
+            if !BUILT.contains(&&*file_name) {
+                collect(&path, &name, files);
+            }
         } else {
             files.push((name, path));
         }

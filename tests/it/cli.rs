@@ -173,6 +173,7 @@ fn help_in_two_lengths() {
         "contest check",
         "new",
         "build",
+        "doctor",
         "completions",
         "man",
     ] {

@@ -11,6 +11,7 @@ mod compare;
 mod completions;
 mod contest;
 mod demo;
+mod doctor;
 mod exit;
 mod fail_under;
 mod failure;
@@ -27,6 +28,7 @@ mod output;
 mod page;
 mod pattern;
 mod play;
+mod project;
 mod reproduce;
 mod resolve;
 mod robot_list;
@@ -35,7 +37,7 @@ mod run;
 mod setup;
 mod study;
 mod terminal;
-mod toolchain;
+
 mod trial;
 mod verdict;
 mod verify;
@@ -79,6 +81,7 @@ enum Command {
     Maze(maze::Args),
     New(new::Args),
     Build(build::Args),
+    Doctor(doctor::Args),
     Completions(completions::Args),
     Man(man::Args),
     /// A worker process of a contest; started by wasmouse itself
@@ -130,6 +133,7 @@ fn command() -> ExitCode {
         Command::Maze(args) => maze::run(args),
         Command::New(args) => new::run(&args),
         Command::Build(args) => build::run(&args),
+        Command::Doctor(args) => doctor::run(&args),
         Command::Completions(args) => completions::run(&args, Cli::command()),
         Command::Man(args) => man::run(&args, Cli::command()),
         Command::Worker(args) => worker::run(&args),

@@ -1,28 +1,41 @@
-//! `wasmouse new`: a Rust project with a robot that builds and scores at once.
+//! `wasmouse new`: a project with a robot that builds and scores at once.
 //!
-//! Everything in it is compiled into this program: the templates of
-//! `host/templates/new`, and the SDK with the WIT, which the build script
-//! collects.
+//! Everything in it is compiled into this program. Rust has the templates of
+//! `host/templates/new`, with the SDK and the WIT. A project in any other language is a copy of
+//! its example robot, which the build script collects.
 
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use clap::builder::PossibleValuesParser;
+
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
+use super::project::LANGUAGES;
 use crate::report::text::{Text, text};
 
 const EXAMPLES: &str = "\
 Examples:
   wasmouse new my-robot
   wasmouse build my-robot
-  wasmouse run my-robot/my-robot.wasm";
+  wasmouse run my-robot/my-robot.wasm
+  wasmouse new my-robot --lang python";
 
 /// The SDK and the WIT: names below `vendor/`, and contents.
 const VENDOR: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/vendor.rs"));
 
-/// The other files; `{{name}}` stands for the name of the project.
+/// The example robots of the other languages: names of languages, and their files by name and
+/// content. [`EXAMPLE_NAME`] stands for the name of the project.
+const LANGUAGE_TEMPLATES: &[(&str, &[(&str, &str)])] =
+    include!(concat!(env!("OUT_DIR"), "/languages.rs"));
+
+/// The name of each example robot, which a new project replaces by its own. Also with `_` for
+/// `-`, where a language wants an identifier.
+const EXAMPLE_NAME: &str = "example-robot";
+
+/// The other files of a Rust project; `{{name}}` stands for its name.
 const TEMPLATES: &[(&str, &str)] = &[
     ("Cargo.toml", include_str!("../../templates/new/Cargo.toml")),
     ("README.md", include_str!("../../templates/new/README.md")),
@@ -38,16 +51,24 @@ const TEMPLATES: &[(&str, &str)] = &[
 /// file, and the name is a part of several.
 const NAME_BYTES_MAX: usize = 64;
 
-/// Create a Rust project for a robot.
+/// Create a project for a robot
 ///
-/// The project has a robot that finishes mazes, a test that runs it natively,
-/// and a copy of the SDK. The last part of PATH is its name.
+/// The project has a robot that finishes mazes, a test, the interface for the editor, and a README
+/// that says how to go on. The last part of PATH is its name.
 #[derive(clap::Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
     /// The folder to create; it must not be there yet.
     #[arg(value_name = "PATH")]
     path: PathBuf,
+    /// Programming language of the robot
+    #[arg(long, value_name = "LANGUAGE", default_value = "rust", value_parser = language_names())]
+    lang: String,
+}
+
+/// What `--lang` takes.
+fn language_names() -> PossibleValuesParser {
+    PossibleValuesParser::new(LANGUAGES.iter().map(|it| it.name))
 }
 
 /// Creates the project and says what to do next.
@@ -64,7 +85,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
                 .hint("choose another name, or remove it"),
         );
     }
-    create(path, name).map_err(|error| {
+    create(path, name, &args.lang).map_err(|error| {
         Failure::internal(text!(
             "failed to create `{}`: {}",
             Text::of_path(path),
@@ -72,9 +93,17 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         ))
     })?;
     let path = Text::of_path(path);
+    let mut created = text!("created {}\n\n", path);
+    let setup = LANGUAGES
+        .iter()
+        .filter(|it| it.name == args.lang)
+        .flat_map(|it| it.setup);
+    for command in setup {
+        created = text!("{}  (cd {} && {})\n", created, path, command);
+    }
     let created = text!(
-        "created {}\n\n  wasmouse build {}\n  wasmouse run {}/{}.wasm\n",
-        path,
+        "{}  wasmouse build {}\n  wasmouse run {}/{}.wasm\n",
+        created,
         path,
         path,
         name
@@ -123,7 +152,7 @@ fn is_reserved(name: &str) -> bool {
 
 /// Writes the project beside its place and moves it there when it is complete,
 /// so that a failure leaves nothing behind.
-fn create(path: &Path, name: &str) -> io::Result<()> {
+fn create(path: &Path, name: &str, language: &str) -> io::Result<()> {
     let parent = match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
         _ => Path::new("."),
@@ -136,17 +165,35 @@ fn create(path: &Path, name: &str) -> io::Result<()> {
         builder.permissions(fs::Permissions::from_mode(0o777));
     }
     let draft = builder.prefix(".wasmouse-new-").tempdir_in(parent)?;
-    for (file, text) in TEMPLATES {
-        write(draft.path(), file, &text.replace("{{name}}", name))?;
-    }
-    for (file, text) in VENDOR {
-        write(&draft.path().join("vendor"), file, text)?;
+    if language == "rust" {
+        for (file, text) in TEMPLATES {
+            write(draft.path(), file, &text.replace("{{name}}", name))?;
+        }
+        for (file, text) in VENDOR {
+            write(&draft.path().join("vendor"), file, text)?;
+        }
+    } else {
+        let identifier = name.replace('-', "_");
+        for (file, text) in template_of(language) {
+            let text = text
+                .replace(EXAMPLE_NAME, name)
+                .replace(&EXAMPLE_NAME.replace('-', "_"), &identifier);
+            write(draft.path(), file, &text)?;
+        }
     }
     // Moving fails on a folder that has appeared meanwhile and is not empty.
     fs::rename(draft.path(), path)?;
     // The draft is in its place now: there is nothing to remove.
     let _moved = draft.keep();
     Ok(())
+}
+
+/// The files of a language's example robot.
+fn template_of(language: &str) -> &'static [(&'static str, &'static str)] {
+    LANGUAGE_TEMPLATES
+        .iter()
+        .find(|(name, _)| *name == language)
+        .map_or(&[], |(_, files)| *files)
 }
 
 fn write(folder: &Path, file: &str, text: &str) -> io::Result<()> {
@@ -164,6 +211,7 @@ mod tests {
     fn new(path: &Path) -> Result<Exit, Failure> {
         run(&Args {
             path: path.to_owned(),
+            lang: "rust".to_owned(),
         })
     }
 
@@ -197,6 +245,38 @@ mod tests {
         assert_eq!(sdk.get("dependencies"), None);
         assert!(read(".github/workflows/ci.yml").contains("wasmouse run my-robot.wasm"));
         assert!(!read("vendor/wasmouse-sdk/Cargo.toml").contains("workspace"));
+    }
+
+    #[test]
+    fn every_language_has_a_template() {
+        for language in LANGUAGES.iter().filter(|it| it.name != "rust") {
+            let folder = tempfile::tempdir().unwrap();
+            let path = folder.path().join("my-robot");
+            run(&Args {
+                path: path.clone(),
+                lang: language.name.to_owned(),
+            })
+            .unwrap();
+            assert!((language.is_in)(&path), "{}", language.name);
+            let readme = fs::read_to_string(path.join("README.md")).unwrap();
+            assert!(readme.starts_with("# my-robot\n"), "{readme}");
+            for file in [".gitignore", ".github/workflows/ci.yml"] {
+                assert!(path.join(file).is_file(), "{} {file}", language.name);
+            }
+            let mut left = vec![path];
+            while let Some(path) = left.pop() {
+                if path.is_dir() {
+                    left.extend(fs::read_dir(&path).unwrap().map(|it| it.unwrap().path()));
+                } else {
+                    let text = fs::read_to_string(&path).unwrap();
+                    assert!(!text.contains("example-robot"), "{}", path.display());
+                    assert!(!text.contains("example_robot"), "{}", path.display());
+                }
+            }
+        }
+        for (name, _) in LANGUAGE_TEMPLATES {
+            assert!(LANGUAGES.iter().any(|it| it.name == *name), "{name}");
+        }
     }
 
     #[test]

@@ -14,10 +14,10 @@ use wasmouse_core::Digest;
 use wasmouse_engine::bundled::{BundledRobot, Variant, bundled, find};
 use wasmouse_engine::{AdmittedRobot, CacheUse, InfrastructureError, LocalExecutor, Trust};
 
-use super::build;
 use super::failure::Failure;
 use super::input;
 use super::output::message;
+use super::project;
 use crate::contest::config::suggestion;
 use crate::contest::{Entrant, NotAdmitted};
 use crate::report::escape::for_terminal;
@@ -56,7 +56,7 @@ pub fn is_robot(argument: &str) -> bool {
         let path = Path::new(text);
         find(text).is_some()
             || has_wasm_extension(path)
-            || build::is_project(path)
+            || project::is_project(path)
             || (path.is_dir() && has_robots(path))
     };
     names_robot(argument) || split_variant(argument).is_some_and(|(text, _)| names_robot(text))
@@ -110,8 +110,8 @@ pub fn resolve(argument: &str) -> Result<Vec<RobotSpec>, Failure> {
 ///
 /// When a folder has no robots, or a project cannot be built.
 pub fn files_at(path: &Path) -> Result<Vec<PathBuf>, Failure> {
-    if build::is_project(path) {
-        Ok(vec![build::build_project(path)?])
+    if project::is_project(path) {
+        Ok(vec![project::build(path)?])
     } else if path.is_dir() {
         folder(path)
     } else {
@@ -185,18 +185,18 @@ pub fn has_wasm_extension(path: &Path) -> bool {
 
 /// Warns about a component beside a robot project whose sources are newer.
 fn warn_if_stale(component: &Path) {
-    let Some(project) = component.parent().map(|it| match it.to_str() {
+    let Some(folder) = component.parent().map(|it| match it.to_str() {
         Some("") => Path::new("."),
         _ => it,
     }) else {
         return;
     };
-    if let Some(source) = build::newer_source(project, component) {
+    if let Some(source) = project::newer_source(folder, component) {
         message!(
             "warning: `{}` is older than `{}`\n  hint: rebuild it with `wasmouse build {}`",
             Text::of_path(component),
             Text::of_path(&source),
-            Text::of_path(project),
+            Text::of_path(folder),
         );
     }
 }

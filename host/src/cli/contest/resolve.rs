@@ -10,11 +10,11 @@ use wasmouse_core::game::Ruleset;
 use wasmouse_core::maze::bundled as bundled_mazes;
 use wasmouse_core::maze::generate::GenSpec;
 
-use super::super::build;
 use super::super::failure::Failure;
 use super::super::mazes::{self, BadFiles, Legality, Request, Source};
 use super::super::output::message;
 use super::super::pattern;
+use super::super::project;
 use super::super::robots::{self, RobotSpec};
 use super::load::ContestFolder;
 use crate::contest::config::{FilePath, suggestion};
@@ -164,7 +164,7 @@ fn robot_files(
     key: &str,
 ) -> Result<Vec<PathBuf>, Failure> {
     if path.is_pattern() {
-        let is_robot = |it: &Path| robots::has_wasm_extension(it) || build::is_project(it);
+        let is_robot = |it: &Path| robots::has_wasm_extension(it) || project::is_project(it);
         let found = pattern::matches(contest.folder(), path.as_str(), is_robot)
             .map_err(|error| unreadable(contest, key, path, &error))?;
         if found.is_empty() {
@@ -173,7 +173,7 @@ fn robot_files(
         let mut files = Vec::new();
         for path in found
             .iter()
-            .filter(|it| it.is_file() || build::is_project(it))
+            .filter(|it| it.is_file() || project::is_project(it))
         {
             files.extend(robots::files_at(path)?);
         }
@@ -186,7 +186,7 @@ fn robot_files(
                     robot that comes with wasmouse";
         return Err(contest.failure_at(key, message).hint(hint));
     }
-    if full.is_dir() && !build::is_project(&full) && !robots::has_robots(&full) {
+    if full.is_dir() && !project::is_project(&full) && !robots::has_robots(&full) {
         message!("warning: folder `{}` has no robots", path.as_str());
         return Ok(Vec::new());
     }

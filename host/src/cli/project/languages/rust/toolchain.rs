@@ -2,15 +2,15 @@
 //!
 //! [`Probe::run`] looks at the machine, [`plan`] decides (a pure function, so
 //! that every kind of machine is a test), and [`Toolchain::find`] carries the
-//! decision out. Compiling itself is [`super::build`]'s work.
+//! decision out. Compiling itself is the work of [`super::package`].
 
 use std::ffi::OsString;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use super::failure::Failure;
-use super::output::message;
+use crate::cli::failure::Failure;
+use crate::cli::output::message;
 use crate::report::text::Text;
 
 /// The target of robots: it has no WASI, so nothing of it can be imported.
@@ -101,6 +101,18 @@ impl Toolchain {
                 Self::from_plan(plan(&probe, true))
             }
             plan => Self::from_plan(plan),
+        }
+    }
+
+    /// Checks that there is one, or that rustup could add it.
+    ///
+    /// # Errors
+    ///
+    /// As [`Toolchain::find`].
+    pub fn check(folder: &Path) -> Result<(), Failure> {
+        match plan(&Probe::run(folder), false) {
+            Plan::AsIs | Plan::AskRustup | Plan::UsePackaged(_) => Ok(()),
+            plan @ Plan::GiveUp => Self::from_plan(plan).map(|_| ()),
         }
     }
 

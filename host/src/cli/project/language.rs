@@ -1,0 +1,72 @@
+//! [`Language`]: what is known about a language, and [`Project`]: a folder with a robot in one.
+
+use std::path::{Path, PathBuf};
+
+use super::component::to_component;
+use super::tool::Tool;
+use crate::cli::failure::Failure;
+
+/// A check of a folder for a project.
+pub type Check = fn(&Path) -> Result<(), Failure>;
+
+/// A language that robots are written in.
+pub struct Language {
+    /// What `--lang` takes: lowercase ASCII letters.
+    pub name: &'static str,
+    /// Its name in sentences.
+    pub title: &'static str,
+    /// The files by which its projects are recognised, for messages.
+    pub markers: &'static [&'static str],
+    /// Whether a folder has a project in this language. Asked in the order of
+    /// [`super::LANGUAGES`], so a later language need not exclude an earlier one.
+    pub is_in: fn(&Path) -> bool,
+    /// Reads the manifest of a project that is in this language.
+    pub open: fn(&Path, &'static Language) -> Result<Project, Failure>,
+    /// Compiles a project to a core module or a component, which may import WASI. What the tools
+    /// print goes to stderr as it comes.
+    pub compile: fn(&Project, &Options) -> Result<Vec<u8>, Failure>,
+    /// Files and folders of a project that its component depends on.
+    pub sources: &'static [&'static str],
+    /// What has to be installed to build its projects.
+    pub tools: &'static [&'static Tool],
+    /// Checks what else is needed, without installing anything, for a project in that folder.
+    pub check: Option<Check>,
+    /// Commands that a new project needs once, in its folder, such as those that install the
+    /// tools that it pins.
+    pub setup: &'static [&'static str],
+}
+
+/// How a project is built.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// The cargo profile that Rust projects are built with; `None` is `release`.
+    pub profile: Option<String>,
+}
+
+/// A folder with a robot.
+pub struct Project {
+    /// As the user gave it.
+    pub folder: PathBuf,
+    /// Its name, from the manifest, or from the folder where the language has none.
+    pub name: String,
+    /// What it is written in.
+    pub language: &'static Language,
+}
+
+impl Project {
+    /// Where its component is written.
+    pub fn component(&self) -> PathBuf {
+        // Not `with_extension`: a name may have a dot in it.
+        self.folder.join(format!("{}.wasm", self.name))
+    }
+
+    /// Compiles it and makes a component.
+    ///
+    /// # Errors
+    ///
+    /// When a tool is missing, it does not compile, or what was compiled is no robot.
+    pub fn build(&self, options: &Options) -> Result<Vec<u8>, Failure> {
+        let binary = (self.language.compile)(self, options)?;
+        to_component(&binary, &self.folder)
+    }
+}
