@@ -40,4 +40,4 @@ pub use runtime::{
     AdmissionError, Cache, CacheUse, CompiledRobot, ENGINE_REVISION, Frame, Runtime,
     WASMTIME_VERSION, engine_config, engine_id,
 };
-pub use time::{Account, CancelFlag, Control, MATCH_TIME_MAX};
+pub use time::{Account, CancelFlag, Control, MATCH_TIME_MAX, match_time_max, time_factor};

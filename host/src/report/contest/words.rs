@@ -57,9 +57,20 @@ pub(super) fn scored_by(rules: &Ruleset) -> String {
     };
     format!(
         "Score: steps of the speed run, plus steps of the exploration run divided by {}. \
-         Budget: {budget}; longest move: {} cells.",
-        game.exploration_divisor, game.longest_move
+         Budget: {budget}; longest move: {} cells; {}.",
+        game.exploration_divisor,
+        game.longest_move,
+        fuel(rules)
     )
+}
+
+/// How much fuel robots have under these rules: `fuel class interpreted (200,000,000,000 a match)`.
+pub(super) fn fuel(rules: &Ruleset) -> String {
+    let most = grouped(rules.sandbox.match_fuel_max);
+    match rules.fuel_class() {
+        Some(class) => format!("fuel class {} ({most} a match)", class.name()),
+        None => format!("fuel: {most} a match"),
+    }
 }
 
 /// What a ranking is about: `Overall`, `Set hidden`, `Class small`.
