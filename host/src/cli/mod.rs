@@ -34,6 +34,7 @@ mod resolve;
 mod robot_list;
 mod robots;
 mod run;
+mod samples;
 mod setup;
 mod study;
 mod terminal;

@@ -35,6 +35,13 @@ pub struct EngineArgs {
     /// Number of matches to play in parallel, at most 1024 [default: number of cores]
     #[arg(long, short, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
+    #[command(flatten)]
+    cache: CacheArgs,
+}
+
+/// Where compiled robots are kept.
+#[derive(clap::Args, Clone, Debug)]
+pub struct CacheArgs {
     /// Cache directory for compiled robots [default: the user's cache directory]
     #[arg(long, value_name = "DIR", env = "WASMOUSE_CACHE")]
     cache: Option<PathBuf>,
@@ -156,7 +163,7 @@ impl SetupArgs {
         executor(
             rules,
             engine.jobs(),
-            engine.open_cache(),
+            engine.cache.open(),
             (Isolation::None, control),
         )
     }
@@ -203,10 +210,26 @@ impl EngineArgs {
         time: &TimeArgs,
     ) -> Result<LocalExecutor, Failure> {
         let isolation = isolation.isolation(time, &rules.sandbox)?;
-        Ok(executor(rules, self.jobs(), self.open_cache(), isolation))
+        Ok(executor(rules, self.jobs(), self.cache.open(), isolation))
+    }
+}
+
+impl CacheArgs {
+    /// An executor for one match at a time.
+    ///
+    /// # Errors
+    ///
+    /// When the program cannot find itself, to start workers from.
+    pub fn executor(
+        &self,
+        rules: Arc<Ruleset>,
+        isolation: &IsolationArgs,
+    ) -> Result<LocalExecutor, Failure> {
+        let isolation = isolation.isolation(&TimeArgs::default(), &rules.sandbox)?;
+        Ok(executor(rules, 1, self.open(), isolation))
     }
 
-    fn open_cache(&self) -> Option<Cache> {
+    fn open(&self) -> Option<Cache> {
         if self.no_cache {
             return None;
         }

@@ -5,6 +5,7 @@
 //! from parts of them. Small JSON documents have structs of their own here, so that the domain
 //! types can change without changing what other programs read.
 
+pub mod built;
 pub mod bundled;
 pub mod comparison;
 pub mod config;
@@ -20,6 +21,7 @@ pub mod jsonl;
 pub mod maze_check;
 pub mod maze_solve;
 mod moment;
+pub mod numbers;
 mod paired;
 mod paths;
 pub mod picture;

@@ -7,6 +7,7 @@ use super::view::{FaultLine, Part, Unranked, View};
 use crate::contest::{
     MatchScore, Mean, Method, Outcome, PairedVerdict, RankingLine, Scoring, Seeds, TieBreak,
 };
+use crate::report::numbers::grouped;
 
 /// What is shown where there is no value.
 pub(super) const NONE: &str = "-";
@@ -259,19 +260,6 @@ pub(super) fn percent(share: Option<Mean>) -> String {
 pub(super) fn rank(line: &RankingLine) -> String {
     line.rank
         .map_or_else(|| NONE.to_owned(), |rank| rank.to_string())
-}
-
-/// A number with its thousands apart, for people.
-pub(super) fn grouped(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::with_capacity(digits.len() * 4 / 3);
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
 }
 
 /// How a match ended, in a word for tables of many matches.

@@ -5,7 +5,8 @@ use maud::{Markup, html};
 use super::parts::{caption, label, shown};
 use crate::contest::{Mean, RankingLine};
 use crate::report::contest::view::{Part, View, state};
-use crate::report::contest::words::{self, grouped, mean, percent};
+use crate::report::contest::words::{self, mean, percent};
+use crate::report::numbers::grouped;
 
 /// The overall ranking, and those of sets and classes below it.
 pub(super) fn standings(view: &View<'_>) -> Option<Markup> {
