@@ -1,7 +1,12 @@
 //! Modules that become robots, and those that cannot.
 
-use super::*;
 use proptest::prelude::*;
+use wasmparser::{Parser, Payload};
+use wit_component::{StringEncoding, embed_component_metadata};
+
+use super::super::binary::BinaryKind;
+use super::componentize;
+use super::encode::robot_world;
 
 const START: &str = r#"(func (export "wasmouse:robot/controller@0.2.0#start")
     (param i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i64 i32))"#;
