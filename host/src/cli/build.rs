@@ -1,4 +1,5 @@
-//! `wasmouse build`: turns a robot project or a core module into a component file.
+//! `wasmouse build`: turns a robot project, a core module or WebAssembly text into a component
+//! file.
 //!
 //! Runs cargo, finds the module that it built, wraps it ([`componentize`]) and writes it.
 //! Which compiler is used is decided by [`super::toolchain`].
@@ -11,7 +12,7 @@ use std::process::{Command, Stdio};
 
 use serde::Deserialize;
 use wasmouse_engine::Limits;
-use wasmouse_engine::admission::{componentize, examine};
+use wasmouse_engine::admission::{BinaryKind, componentize, examine};
 
 use super::exit::Exit;
 use super::failure::Failure;
@@ -26,19 +27,20 @@ Examples:
   wasmouse build my-robot              writes my-robot/my-robot.wasm
   wasmouse build my-robot -o bot.wasm
   wasmouse build module.wasm           wraps a core module of any language
+  wasmouse build robot.wat             the same for WebAssembly text
 
 The wasm target is added with rustup if it is missing. If rustup cannot fetch it,
 a packaged compiler is used (Debian: rustc-web, rust-web-src, lld-22).";
 
-/// Build a robot project, or wrap a core module, into a component
+/// Build a robot project, a core module or WebAssembly text into a component
 ///
 /// For a project, runs `cargo build` for wasm32-unknown-unknown and writes
-/// NAME.wasm into the project folder. For a core module FILE.wasm, writes
-/// FILE.component.wasm beside it.
+/// NAME.wasm into the project folder. For a core module
+/// FILE.wasm or WebAssembly text FILE.wat, writes FILE.component.wasm beside it.
 #[derive(clap::Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
-    /// Robot project folder, or a core module (.wasm)
+    /// Robot project folder, a core module (.wasm), or WebAssembly text (.wat)
     #[arg(default_value = ".")]
     path: PathBuf,
     /// Output file for the component
@@ -74,7 +76,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
                 Text::of_path(&args.path),
                 error
             ))
-            .hint("give the folder of a robot project or a core module (.wasm)")
+            .hint("give the folder of a robot project, a core module (.wasm) or WebAssembly text (.wat)")
         })?;
         (module, args.path.with_extension("component.wasm"))
     };
@@ -121,15 +123,23 @@ pub fn newer_source(project: &Path, component: &Path) -> Option<PathBuf> {
     None
 }
 
-fn to_component(core_module: &[u8], source: &Path) -> Result<Vec<u8>, Failure> {
-    componentize(core_module).map_err(|error| {
+/// The component around a core module in binary form or text.
+fn to_component(module: &[u8], source: &Path) -> Result<Vec<u8>, Failure> {
+    let failure = |reason: String, hint: &str| {
         Failure::robot(text!(
             "cannot build a robot from `{}`: {}",
             Text::of_path(source),
-            error
+            reason
         ))
-        .hint(error.hint())
-    })
+        .hint(hint)
+    };
+    if BinaryKind::of(module) == BinaryKind::Text {
+        return match examine(module, &Limits::default()).component {
+            Ok(component) => Ok(component.into_owned()),
+            Err(rejection) => Err(failure(rejection.to_string(), rejection.hint())),
+        };
+    }
+    componentize(module).map_err(|error| failure(error.to_string(), error.hint()))
 }
 
 /// A robot project: a package with a library that becomes a module.

@@ -1,10 +1,11 @@
 //! Makes a component of a module that has the names of a robot.
 
-use wit_component::{ComponentEncoder, embed_component_metadata};
+use std::borrow::Cow;
+
+use wit_component::{ComponentEncoder, StringEncoding, embed_component_metadata};
 use wit_parser::{Resolve, WorldId};
 
 use super::error::ComponentizeError;
-use super::module::Module;
 
 /// The text of the WIT package `wasmouse:robot`, the contract every robot keeps.
 pub const ROBOT_WIT: &str = include_str!("../../../../../wit/robot.wit");
@@ -41,12 +42,21 @@ pub(super) fn encode(typed_module: &[u8]) -> Result<Vec<u8>, ComponentizeError> 
         })
 }
 
-/// The module with the types of the world `robot`.
-pub(super) fn with_robot_types(module: Module, patch: u64) -> Vec<u8> {
+/// The module with the types of the world `robot`, which says that it encodes strings so.
+pub(super) fn with_robot_types(
+    untyped: Cow<'_, [u8]>,
+    strings: Option<StringEncoding>,
+    patch: u64,
+) -> Vec<u8> {
     let (resolve, world) = robot_world(patch);
-    let strings = module.types.unwrap_or_default();
-    let mut bytes = module.untyped;
-    embed_component_metadata(&mut bytes, &resolve, world, strings, false)
-        .expect("the embedded WIT encodes; a test holds it");
-    bytes
+    let mut untyped = untyped.into_owned();
+    embed_component_metadata(
+        &mut untyped,
+        &resolve,
+        world,
+        strings.unwrap_or_default(),
+        false,
+    )
+    .expect("the embedded WIT encodes; a test holds it");
+    untyped
 }

@@ -11,19 +11,20 @@
 //! need each other), which would end the host. There is one world a robot can
 //! have, and every module is wrapped as that.
 //!
-//! `module` reads a module, `names` decides whether its names are those of a robot, `encode`
-//! makes the component, and `convert` is the three in order.
+//! `module` reads a module, `names` decides whether its names are those of a robot, `rename`
+//! replaces plain ones, `encode` makes the component, and `convert` is the four in order.
 
 mod convert;
 mod encode;
 mod error;
 mod module;
 mod names;
+mod rename;
 
 pub use convert::componentize;
 pub use encode::ROBOT_WIT;
 pub use error::ComponentizeError;
-pub use names::{CONTROLLER_EXPORTS, JOURNAL_IMPORT};
+pub use names::{CONTROLLER_EXPORTS, JOURNAL_IMPORT, PLAIN_EXPORTS, PLAIN_JOURNAL};
 
 #[cfg(test)]
 mod tests;

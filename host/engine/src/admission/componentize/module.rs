@@ -6,10 +6,11 @@ use wasmparser::{Parser, Payload, Validator};
 use wit_component::StringEncoding;
 
 use super::super::binary::BinaryKind;
+use super::super::proposal::FEATURES;
 use super::error::ComponentizeError;
 
 /// Magic number and version, before the first section.
-const HEADER_BYTES: usize = 8;
+pub(super) const HEADER_BYTES: usize = 8;
 
 /// Bindings generators write the world of a module into custom sections with
 /// this prefix.
@@ -34,7 +35,7 @@ impl Module {
         match BinaryKind::of(bytes) {
             BinaryKind::CoreModule => {}
             BinaryKind::Component => return Err(ComponentizeError::AlreadyComponent),
-            BinaryKind::Other => {
+            BinaryKind::Text | BinaryKind::Other => {
                 return Err(ComponentizeError::NotWasm {
                     found: describe_foreign(bytes),
                 });
@@ -42,7 +43,7 @@ impl Module {
         }
         // The encoder trusts the module's code, so a damaged one has to be
         // found here, where the message still names the byte.
-        Validator::new()
+        Validator::new_with_features(FEATURES)
             .validate_all(bytes)
             .map_err(ComponentizeError::malformed)?;
         let (header, _) = bytes.split_at(HEADER_BYTES);
@@ -123,9 +124,7 @@ fn describe_foreign(bytes: &[u8]) -> String {
     if bytes.starts_with(b"\0asm") {
         return "a WebAssembly header with an unknown version".to_owned();
     }
-    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(64)]).into_owned();
-    let text = text.trim_start();
-    if text.starts_with("(module") || text.starts_with("(component") {
+    if BinaryKind::of(bytes) == BinaryKind::Text {
         return "WebAssembly text; convert it to binary first".to_owned();
     }
     let first: Vec<String> = bytes.iter().take(4).map(|b| format!("{b:02x}")).collect();
