@@ -1,5 +1,5 @@
-//! `wasmouse build`: turns a robot project or a core module into a component file, and shows what
-//! a match of it costs.
+//! `wasmouse build`: turns a robot project, a core module or WebAssembly text into a component
+//! file, and shows what a match of it costs.
 //!
 //! Compiling is the work of [`super::project`].
 
@@ -28,20 +28,21 @@ Examples:
   wasmouse build my-robot -o bot.wasm
   wasmouse build my-robot --watch      builds and plays again when a file changes
   wasmouse build module.wasm           wraps a core module of any language
+  wasmouse build robot.wat             the same for WebAssembly text
 
 Rust: the wasm target is added with rustup if it is missing. If rustup cannot fetch it,
 a packaged compiler is used (Debian: rustc-web, rust-web-src, lld-22).
 Other languages: `wasmouse doctor` says what they need.";
 
-/// Build a robot project, or wrap a core module, into a component
+/// Build a robot project, a core module or WebAssembly text into a component
 ///
 /// A project is compiled with the tools of its language, and NAME.wasm is written into its folder.
-/// For a core module FILE.wasm, FILE.component.wasm is written beside it. Then the robot plays a
+/// For a core module FILE.wasm or text FILE.wat, FILE.component.wasm is written beside it. Then the robot plays a
 /// match in a known maze and one in a large maze, to show its fuel beside the limits.
 #[derive(clap::Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
-    /// Robot project folder, or a core module (.wasm)
+    /// Robot project folder, a core module (.wasm) or WebAssembly text (.wat)
     #[arg(default_value = ".")]
     path: PathBuf,
     /// Output file for the component
@@ -97,7 +98,7 @@ impl Args {
                     Text::of_path(&self.path),
                     error
                 ))
-                .hint("give the folder of a robot project or a core module (.wasm)")
+                .hint("give the folder of a robot project, a core module (.wasm) or text (.wat)")
             })?;
             let component = to_component(&module, &self.path)?;
             (component, self.path.with_extension("component.wasm"))
