@@ -5,6 +5,7 @@
 //! from parts of them. Small JSON documents have structs of their own here, so that the domain
 //! types can change without changing what other programs read.
 
+pub mod backtrace;
 pub mod bundled;
 pub mod comparison;
 pub mod config;
