@@ -120,7 +120,10 @@ pub(super) fn faults(view: &View<'_>) -> Option<Markup> {
     let faults = view.faults();
     (!faults.is_empty()).then(|| {
         html! { ul { @for it in faults {
-            li { strong { (shown(view.name(it.robot))) } ": " (shown(&words::fault(&it))) }
+            li {
+                strong { (shown(view.name(it.robot))) } ": " (shown(&words::fault(&it)))
+                @if let Some(complaint) = it.complaint { pre { @for line in &complaint.lines { (shown(line)) "\n" } } }
+            }
         } } }
     })
 }
