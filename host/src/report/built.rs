@@ -6,7 +6,7 @@ use std::time::Duration;
 use wasmouse_core::game::{FuelClass, Verdict};
 use wasmouse_core::record::MatchRecord;
 
-use super::numbers::grouped;
+use super::number::grouped;
 use super::text::{Text, text};
 
 /// Steps of a match for which the class of a robot is estimated: the budget of all bundled rules.

@@ -2,12 +2,12 @@
 
 use wasmouse_core::game::{BudgetScope, Ruleset};
 
+use crate::report::number::grouped;
 use super::document::Compared;
 use super::view::{FaultLine, Part, Unranked, View};
 use crate::contest::{
     MatchScore, Mean, Method, Outcome, PairedVerdict, RankingLine, Scoring, Seeds, TieBreak,
 };
-use crate::report::numbers::grouped;
 
 /// What is shown where there is no value.
 pub(super) const NONE: &str = "-";
@@ -166,7 +166,7 @@ pub(super) fn unranked(unranked: &Unranked<'_>) -> String {
 }
 
 /// A kind of fault of a robot, as a sentence after its name.
-pub(super) fn fault(line: &FaultLine) -> String {
+pub(super) fn fault(line: &FaultLine<'_>) -> String {
     let mut text = format!(
         "{} in {} of {} matches",
         line.kind, line.count, line.matches

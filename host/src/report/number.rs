@@ -1,12 +1,7 @@
 //! Numbers for people.
 
-/// A number with its thousands apart.
-///
-/// ```
-/// use wasmouse::report::numbers::grouped;
-/// assert_eq!(grouped(1_234_567), "1,234,567");
-/// ```
-pub fn grouped(number: u64) -> String {
+/// A number with its thousands apart: `1,234,567`.
+pub(crate) fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::with_capacity(digits.len() * 4 / 3);
     for (index, digit) in digits.chars().enumerate() {
