@@ -50,6 +50,8 @@ mod grade;
 mod hostile;
 /// Ctrl-C during a contest.
 mod interrupt;
+/// Robots in every language, built with the real tools.
+mod languages;
 /// Imports between the folders of the host.
 mod layers;
 /// How the memory of this process is mapped after matches.

@@ -5,7 +5,8 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use xtask::{
-    bindings, corpus, dist, fuzz, platforms, reference, repository, robots, validators, verify,
+    bindings, corpus, dist, fuzz, languages, platforms, reference, repository, robots, validators,
+    verify,
 };
 
 /// Automation for the wasmouse repository.
@@ -53,6 +54,9 @@ enum Command {
     Dist(dist::Args),
     /// Install the validators that tests use into target/validators: packages of Python and Node.
     Validators,
+    /// Install the tools of languages other than Rust that tests use into target/languages:
+    /// packages of Python and Node.
+    Languages,
     /// Fuzz a parser of untrusted input; without a target, list the targets.
     Fuzz {
         /// The fuzz target.
@@ -75,6 +79,7 @@ fn main() -> ExitCode {
         Command::CheckPlatforms => platforms::run(&root),
         Command::Dist(args) => dist::run(&root, &args),
         Command::Validators => validators::run(&root),
+        Command::Languages => languages::run(&root),
         Command::Fuzz { target, minutes } => fuzz::run(&root, target.as_deref(), minutes),
     };
     match outcome {

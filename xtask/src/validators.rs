@@ -6,12 +6,9 @@
 //! so, and each test that wants one is skipped with a line on stderr ([`Validator::find`]).
 //! Where [`REQUIRED_VARIABLE`] is set, such a test fails instead.
 
-use std::env;
-use std::fs;
-use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
 
+use crate::packages::{self, Ecosystem};
 use crate::step::target_folder;
 
 /// Set to anything but the empty string, it makes a missing validator a failure.
@@ -33,13 +30,6 @@ pub enum Validator {
     Html,
     /// TAP on standard input: `tap-parser`.
     Tap,
-}
-
-/// Where a validator comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Ecosystem {
-    Python,
-    Node,
 }
 
 impl Validator {
@@ -89,7 +79,9 @@ impl Validator {
 
     /// Its program, if it was installed.
     pub fn path(self, root: &Path) -> Option<PathBuf> {
-        let path = self.ecosystem().programs(root).join(self.program());
+        let ecosystem = self.ecosystem();
+        let programs = ecosystem.programs(&folder(ecosystem, root));
+        let path = programs.join(self.program());
         [path.clone(), path.with_extension("exe")]
             .into_iter()
             .find(|path| path.is_file())
@@ -104,102 +96,37 @@ impl Validator {
     pub fn find(self, root: &Path, test: &str) -> Option<PathBuf> {
         let path = self.path(root);
         if path.is_none() {
-            let is_required = env::var_os(REQUIRED_VARIABLE).is_some_and(|it| !it.is_empty());
-            let line = format!(
-                "skipped {test}: no `{}`; `cargo xtask validators` installs it",
+            let reason = format!(
+                "no `{}`; `cargo xtask validators` installs it",
                 self.program()
             );
-            assert!(!is_required, "{line} ({REQUIRED_VARIABLE} is set)");
-            // `eprintln!` would be captured.
-            let _ = writeln!(io::stderr(), "{line}");
+            packages::skip(test, &reason, REQUIRED_VARIABLE);
         }
         path
     }
 }
 
-impl Ecosystem {
-    const ALL: [Self; 2] = [Self::Python, Self::Node];
-
-    /// A virtual environment, or a prefix of npm.
-    fn folder(self, root: &Path) -> PathBuf {
-        let name = match self {
-            Self::Python => "python",
-            Self::Node => "node",
-        };
-        target_folder(root).join("validators").join(name)
-    }
-
-    fn programs(self, root: &Path) -> PathBuf {
-        let folder = self.folder(root);
-        match self {
-            Self::Python if cfg!(windows) => folder.join("Scripts"),
-            Self::Python => folder.join("bin"),
-            Self::Node => folder.join("node_modules/.bin"),
-        }
-    }
-
-    fn validators(self) -> impl Iterator<Item = Validator> {
-        Validator::ALL
-            .into_iter()
-            .filter(move |validator| validator.ecosystem() == self)
-    }
-
-    /// What was installed, so that nothing is asked of a registry again until a pin changes.
-    fn stamp(self) -> String {
-        self.validators()
-            .map(|validator| format!("{}\n", validator.package()))
-            .collect()
-    }
-
-    /// Installs its validators. One without a wheel for this machine takes none of the others
-    /// with it.
-    fn install(self, root: &Path) -> Result<(), String> {
-        let folder = self.folder(root);
-        let stamp = folder.join("installed.txt");
-        if fs::read_to_string(&stamp).is_ok_and(|text| text == self.stamp()) {
-            return Ok(());
-        }
-        fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
-        match self {
-            Self::Python => {
-                let python = if cfg!(windows) { "python" } else { "python3" };
-                quiet(Command::new(python).args(["-m", "venv"]).arg(&folder))?;
-                let pip = self.programs(root).join("python");
-                let install = |validator: Validator| {
-                    quiet(
-                        Command::new(&pip)
-                            .args(["-m", "pip", "install", "--quiet"])
-                            .args(["--disable-pip-version-check", "--only-binary", ":all:"])
-                            .arg(validator.package()),
-                    )
-                };
-                let results: Vec<_> = self.validators().map(install).collect();
-                results.into_iter().collect::<Result<(), _>>()?;
-            }
-            Self::Node => {
-                let npm = if cfg!(windows) { "npm.cmd" } else { "npm" };
-                // No scripts: a package may not run anything as it is installed.
-                let options = ["--no-audit", "--no-fund", "--ignore-scripts", "--silent"];
-                quiet(
-                    Command::new(npm)
-                        .arg("install")
-                        .args(options)
-                        .arg("--prefix")
-                        .arg(&folder)
-                        .args(self.validators().map(Validator::package)),
-                )?;
-            }
-        }
-        fs::write(stamp, self.stamp()).map_err(|error| error.to_string())
-    }
+/// A virtual environment, or a prefix of npm.
+fn folder(ecosystem: Ecosystem, root: &Path) -> PathBuf {
+    let name = match ecosystem {
+        Ecosystem::Python => "python",
+        Ecosystem::Node => "node",
+    };
+    target_folder(root).join("validators").join(name)
 }
 
 /// Installs the validators that are missing and says on stderr which could not be installed.
 /// Returns those.
 pub fn install(root: &Path) -> Vec<Validator> {
     eprintln!("==> validators");
-    for ecosystem in Ecosystem::ALL {
-        if let Err(error) = ecosystem.install(root) {
+    for ecosystem in [Ecosystem::Python, Ecosystem::Node] {
+        let is_from = |validator: &Validator| validator.ecosystem() == ecosystem;
+        let packages: Vec<_> = Validator::ALL
+            .into_iter()
+            .filter(is_from)
+            .map(Validator::package)
+            .collect();
+        if let Err(error) = ecosystem.install(&packages, &folder(ecosystem, root)) {
             eprintln!("    {ecosystem:?}: {error}");
         }
     }
@@ -228,23 +155,10 @@ pub fn run(root: &Path) -> Result<(), String> {
     Err(format!("{} validators are not installed", missing.len()))
 }
 
-/// Runs a command without its output; the error ends with the last line that it wrote to stderr.
-fn quiet(command: &mut Command) -> Result<(), String> {
-    let program = command.get_program().to_string_lossy().into_owned();
-    let output = command
-        .stdin(Stdio::null())
-        .output()
-        .map_err(|error| format!("`{program}` cannot run: {error}"))?;
-    if output.status.success() {
-        return Ok(());
-    }
-    let stderr = String::from_utf8_lossy(&output.stderr);
-    let last = stderr.trim().lines().last().unwrap_or("no message");
-    Err(format!("`{program}` failed ({}): {last}", output.status))
-}
-
 #[cfg(test)]
 mod tests {
+    use std::env;
+
     use super::*;
 
     #[test]
@@ -262,18 +176,6 @@ mod tests {
                 "{package}"
             );
         }
-    }
-
-    #[test]
-    fn a_program_that_fails_is_named_with_its_last_line() {
-        let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-        let error = quiet(Command::new(cargo).arg("--no-such-flag")).unwrap_err();
-        assert!(error.contains("failed (exit"), "{error}");
-        let error = quiet(&mut Command::new("no-such-program-here")).unwrap_err();
-        assert!(
-            error.starts_with("`no-such-program-here` cannot run"),
-            "{error}"
-        );
     }
 
     #[test]

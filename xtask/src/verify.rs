@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use crate::step::{Step, target_folder};
-use crate::{corpus, robots, validators};
+use crate::{corpus, languages, robots, validators};
 
 /// Where the tests find robots that were built from source just now.
 pub const BUILT_ROBOTS_VARIABLE: &str = "WASMOUSE_BUILT_ROBOTS";
@@ -42,6 +42,7 @@ pub fn run(root: &Path, long: bool) -> Result<(), String> {
         .args(["build", "--workspace", "--bins", "--tests"])
         .run()?;
     let missing = validators::install(root);
+    let without_tools = languages::install(root);
     let built = target_folder(root).join("robots");
     robots::build_all(root, &built)?;
     let (ignored, cases): (&[&str], &[OsString]) = if long {
@@ -66,6 +67,13 @@ pub fn run(root: &Path, long: bool) -> Result<(), String> {
             "note: {} validators could not be installed, and the tests that need them were \
              skipped; each is named above",
             missing.len()
+        );
+    }
+    if !without_tools.is_empty() {
+        eprintln!(
+            "note: the tools of {} languages could not be installed, and their tests were skipped; \
+             each is named above",
+            without_tools.len()
         );
     }
     eprintln!("all checks passed");

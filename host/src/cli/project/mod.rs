@@ -10,6 +10,7 @@ mod component;
 mod find;
 mod language;
 mod languages;
+mod strip;
 mod tool;
 
 pub use check::{Status, check};

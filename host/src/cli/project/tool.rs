@@ -30,7 +30,10 @@ pub struct Tool {
 
 /// A way to start a tool.
 #[derive(Clone, Copy, Debug)]
-#[expect(dead_code, reason = "languages that need them are about to be added")]
+#[cfg_attr(
+    not(test),
+    expect(dead_code, reason = "languages that need them are about to be added")
+)]
 pub enum Program {
     /// A program on the search path.
     OnPath(&'static str),
@@ -40,6 +43,8 @@ pub enum Program {
     Venv(&'static str),
     /// A module of Python, started with `python3 -m`.
     PythonModule(&'static str),
+    /// Another tool that does as well.
+    Other(&'static Tool),
 }
 
 /// A version by its first three numbers; those that are missing are 0.
@@ -70,7 +75,9 @@ impl Tool {
                 continue;
             };
             match found.version {
-                Some(version) if version < self.oldest => too_old = too_old.or(Some(version)),
+                Some(version) if found.is(self) && version < self.oldest => {
+                    too_old = too_old.or(Some(version));
+                }
                 _ => return Ok(found),
             }
         }
@@ -90,6 +97,9 @@ impl Tool {
     }
 
     fn probe(&'static self, program: Program, folder: Option<&Path>) -> Option<FoundTool> {
+        if let Program::Other(tool) = program {
+            return tool.find(folder).ok();
+        }
         let (program, arguments) = program.command(folder)?;
         let mut found = FoundTool {
             tool: self,
@@ -137,15 +147,23 @@ impl Program {
                 Some((local(&folder, name)?, Vec::new()))
             }
             Self::PythonModule(module) => Some((python.into(), vec!["-m".into(), module.into()])),
+            // It has programs of its own.
+            Self::Other(_) => None,
         }
     }
 }
 
-#[cfg_attr(
-    not(test),
-    expect(dead_code, reason = "languages that need it are about to be added")
-)]
 impl FoundTool {
+    /// Whether it is that tool, and not another that does as well.
+    pub fn is(&self, tool: &'static Tool) -> bool {
+        std::ptr::eq(self.tool, tool)
+    }
+
+    /// What people call it.
+    pub const fn name(&self) -> &'static str {
+        self.tool.name
+    }
+
     /// A command that runs it, without arguments of a caller. It reads nothing from stdin.
     pub fn command(&self) -> Command {
         let mut command = Command::new(&self.program);

@@ -1,8 +1,15 @@
 //! [`LANGUAGES`]: the languages that robots are written in.
 
-use super::rust;
+use super::{assemblyscript, c, cpp, rust, wat, zig};
 use crate::cli::project::language::Language;
 
 /// All of them, in the order in which projects are recognised: those with an unmistakable
 /// manifest first.
-pub const LANGUAGES: &[&Language] = &[&rust::LANGUAGE];
+pub const LANGUAGES: &[&Language] = &[
+    &rust::LANGUAGE,
+    &assemblyscript::LANGUAGE,
+    &zig::LANGUAGE,
+    &c::LANGUAGE,
+    &cpp::LANGUAGE,
+    &wat::LANGUAGE,
+];
