@@ -11,7 +11,7 @@ use std::process::{Command, Stdio};
 
 use serde::Deserialize;
 use wasmouse_engine::Limits;
-use wasmouse_engine::admission::{componentize, examine};
+use wasmouse_engine::admission::{BinaryKind, componentize, examine, wasi};
 
 use super::exit::Exit;
 use super::failure::Failure;
@@ -121,8 +121,18 @@ pub fn newer_source(project: &Path, component: &Path) -> Option<PathBuf> {
     None
 }
 
-fn to_component(core_module: &[u8], source: &Path) -> Result<Vec<u8>, Failure> {
-    componentize(core_module).map_err(|error| {
+fn to_component(file: &[u8], source: &Path) -> Result<Vec<u8>, Failure> {
+    if BinaryKind::of(file) == BinaryKind::Component {
+        return wasi::compose(file, &Limits::default()).map_err(|error| {
+            Failure::robot(text!(
+                "cannot build a robot from `{}`: {}",
+                Text::of_path(source),
+                error
+            ))
+            .hint(error.hint())
+        });
+    }
+    componentize(file).map_err(|error| {
         Failure::robot(text!(
             "cannot build a robot from `{}`: {}",
             Text::of_path(source),

@@ -15,7 +15,9 @@ mod names;
 mod place;
 pub mod precheck;
 mod rejection;
+mod shell;
 mod version;
+pub mod wasi;
 
 pub use binary::BinaryKind;
 pub use componentize::{

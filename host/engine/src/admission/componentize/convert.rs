@@ -3,7 +3,7 @@
 use super::encode::{encode, with_robot_types};
 use super::error::ComponentizeError;
 use super::module::Module;
-use super::names;
+use super::{names, preview1};
 
 /// Wraps a core module into a component.
 ///
@@ -13,6 +13,9 @@ use super::names;
 /// information as well (custom sections named `component-type*`); of that, only
 /// the string encoding is used, so languages without a generator take part on
 /// the same terms. Strings are UTF-8 where nothing is said.
+///
+/// Modules that import WASI preview 1 get what answers it inside of the component, and import
+/// nothing but the journal afterwards.
 ///
 /// The same module always gives the same component.
 ///
@@ -31,5 +34,8 @@ use super::names;
 pub fn componentize(core_module: &[u8]) -> Result<Vec<u8>, ComponentizeError> {
     let module = Module::of(core_module)?;
     let patch = names::check(&module)?;
+    if module.imports_from(preview1::MODULE) {
+        return preview1::encode(module, patch);
+    }
     encode(&with_robot_types(module, patch))
 }

@@ -12,13 +12,14 @@
 //! have, and every module is wrapped as that.
 //!
 //! `module` reads a module, `names` decides whether its names are those of a robot, `encode`
-//! makes the component, and `convert` is the three in order.
+//! makes the component, and `convert` is the three in order. `preview1` is for modules with WASI.
 
 mod convert;
 mod encode;
 mod error;
 mod module;
 mod names;
+mod preview1;
 
 pub use convert::componentize;
 pub use encode::ROBOT_WIT;

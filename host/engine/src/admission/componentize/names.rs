@@ -4,6 +4,7 @@ use super::super::names::list_escaped;
 use super::super::version::{self, COMPATIBLE, VERSION};
 use super::error::ComponentizeError;
 use super::module::Module;
+use super::preview1;
 
 /// The names under which a core module exports the functions of `controller`,
 /// in the order of the WIT. Another compatible version may stand in them.
@@ -64,7 +65,9 @@ fn check_exports(module: &Module) -> Result<u64, ComponentizeError> {
 
 fn check_imports(module: &Module, patch: u64) -> Result<(), ComponentizeError> {
     let journal = with_patch(JOURNAL_IMPORT, patch);
-    let foreign = |(module, _): &&(String, String)| *module != journal;
+    let foreign = |(module, name): &&(String, String)| {
+        *module != journal && !(module == preview1::MODULE && preview1::answers(name))
+    };
     let Some((module, name)) = module.imports.iter().find(foreign) else {
         return Ok(());
     };
@@ -83,7 +86,7 @@ fn check_imports(module: &Module, patch: u64) -> Result<(), ComponentizeError> {
 }
 
 /// A name of the interface with another patch version in it.
-fn with_patch(name: &str, patch: u64) -> String {
+pub(super) fn with_patch(name: &str, patch: u64) -> String {
     let version = format!("{}{patch}", COMPATIBLE.trim_end_matches('x'));
     name.replacen(VERSION, &version, 1)
 }
