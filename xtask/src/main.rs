@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use xtask::{
     bindings, corpus, dist, fuzz, languages, platforms, reference, repository, robots, validators,
-    verify,
+    verify, wasi,
 };
 
 /// Automation for the wasmouse repository.
@@ -31,6 +31,12 @@ enum Command {
     /// Build the bundled robots into example-robots/prebuilt.
     Robots {
         /// Build nothing; list which prebuilt robots are stale.
+        #[arg(long)]
+        check: bool,
+    },
+    /// Build what keeps WASI inside of robots into host/engine/wasi/prebuilt.
+    Wasi {
+        /// Build nothing; list what is stale.
         #[arg(long)]
         check: bool,
     },
@@ -74,6 +80,8 @@ fn main() -> ExitCode {
         Command::Bindings => bindings::generate(&root),
         Command::Robots { check: false } => robots::rebuild(&root),
         Command::Robots { check: true } => robots::check(&root),
+        Command::Wasi { check: false } => wasi::rebuild(&root),
+        Command::Wasi { check: true } => wasi::check(&root),
         Command::Corpus { arguments } => corpus::run(&root, &arguments),
         Command::Reference { arguments } => reference::run(&root, &arguments),
         Command::CheckPlatforms => platforms::run(&root),
