@@ -29,6 +29,7 @@ mod output;
 mod page;
 mod pattern;
 mod play;
+mod profile;
 mod reproduce;
 mod resolve;
 mod robot_list;
@@ -69,6 +70,7 @@ struct Cli {
 enum Command {
     Demo(demo::Args),
     Run(run::Args),
+    Profile(profile::Args),
     Grade(grade::Args),
     Compare(compare::Args),
     Study(study::Args),
@@ -122,6 +124,7 @@ fn command() -> ExitCode {
     let outcome: Result<Exit, Failure> = match cli.command {
         Command::Demo(args) => demo::run(&args),
         Command::Run(args) => run::run(&args),
+        Command::Profile(args) => profile::run(&args),
         Command::Grade(args) => grade::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Study(args) => study::run(&args),
