@@ -101,6 +101,8 @@ mod solver;
 mod store;
 /// Results on standard output, and pipes that close.
 mod streams;
+/// WebAssembly text as a robot.
+mod text;
 /// Pipes, links and hostile names in folders of submissions.
 mod untrusted_files;
 /// Verdicts that depend on the limits, and panics.

@@ -1,4 +1,5 @@
-//! `wasmouse build`: turns a robot project or a core module into a component file.
+//! `wasmouse build`: turns a robot project, a core module or WebAssembly text into a component
+//! file.
 //!
 //! Compiling is the work of [`super::project`].
 
@@ -20,19 +21,19 @@ Examples:
   wasmouse build my-robot              writes my-robot/my-robot.wasm
   wasmouse build my-robot -o bot.wasm
   wasmouse build module.wasm           wraps a core module of any language
+  wasmouse build robot.wat             the same for WebAssembly text
 
-The wasm target is added with rustup if it is missing. If rustup cannot fetch it,
-a packaged compiler is used (Debian: rustc-web, rust-web-src, lld-22).";
+`wasmouse doctor` says which tools are missing. For Rust, the wasm target is added with rustup; if
+rustup cannot fetch it, a packaged compiler is used (Debian: rustc-web, rust-web-src, lld-22).";
 
-/// Build a robot project, or wrap a core module, into a component
+/// Build a robot project, a core module or WebAssembly text into a component
 ///
-/// For a project, runs `cargo build` for wasm32-unknown-unknown and writes
-/// NAME.wasm into the project folder. For a core module FILE.wasm, writes
-/// FILE.component.wasm beside it.
+/// For a project, runs the tools of its language and writes NAME.wasm into the project folder. For
+/// a core module FILE.wasm or WebAssembly text FILE.wat, writes FILE.component.wasm beside it.
 #[derive(clap::Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
-    /// Robot project folder, or a core module (.wasm)
+    /// Robot project folder, a core module (.wasm), or WebAssembly text (.wat)
     #[arg(default_value = ".")]
     path: PathBuf,
     /// Output file for the component
@@ -65,7 +66,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
                 Text::of_path(&args.path),
                 error
             ))
-            .hint("give the folder of a robot project or a core module (.wasm)")
+            .hint("give the folder of a robot project, a core module (.wasm) or WebAssembly text (.wat)")
         })?;
         let component = to_component(&module, &args.path)?;
         (component, args.path.with_extension("component.wasm"))
