@@ -36,6 +36,8 @@ mod determinism;
 mod emulation;
 /// Every bundled robot: the same match natively, correct maps, and who must finish.
 mod every_robot;
+/// A failing robot: its own words, a match step by step, backtraces.
+mod explain;
 /// Killed processes, full disks, damaged files.
 mod faults;
 /// Results of every bundled robot, compared with a table to the last unit of fuel.

@@ -1,4 +1,4 @@
-//! [`to_component`]: makes a robot of what a compiler or a person wrote.
+//! [`to_component`]: makes a robot of what a compiler wrote.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use wasmouse_engine::admission::{BinaryKind, componentize, examine};
 use crate::cli::failure::Failure;
 use crate::report::text::{Text, text};
 
-/// Makes a component of a core module, in binary form or as text.
+/// Makes a component of a core module, in binary form or text.
 ///
 /// # Errors
 ///
