@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use crate::cli::failure::Failure;
+use crate::cli::output;
 use crate::report::text::{Text, text};
 
 /// A program that is needed to build projects.
@@ -180,7 +181,7 @@ impl FoundTool {
     pub fn run(&self, mut command: Command, purpose: &Text) -> Result<(), Failure> {
         let name = self.tool.name;
         let status = command
-            .stdout(std::io::stderr())
+            .stdout(output::child_stdout())
             .status()
             .map_err(|error| Failure::input(text!("failed to run {}: {}", name, error)))?;
         if status.success() {

@@ -2,12 +2,12 @@
 
 use wasmouse_core::game::{BudgetScope, Ruleset};
 
-use crate::report::number::grouped;
 use super::document::Compared;
 use super::view::{FaultLine, Part, Unranked, View};
 use crate::contest::{
     MatchScore, Mean, Method, Outcome, PairedVerdict, RankingLine, Scoring, Seeds, TieBreak,
 };
+use crate::report::number::grouped;
 
 /// What is shown where there is no value.
 pub(super) const NONE: &str = "-";
