@@ -48,6 +48,8 @@ mod grade;
 mod hostile;
 /// Ctrl-C during a contest.
 mod interrupt;
+/// Robots in other languages.
+mod languages;
 /// Imports between the folders of the host.
 mod layers;
 /// How the memory of this process is mapped after matches.
