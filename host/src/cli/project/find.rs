@@ -69,7 +69,13 @@ pub fn newer_source(folder: &Path, component: &Path) -> Option<PathBuf> {
     let modified = |path: &Path| fs::metadata(path).and_then(|it| it.modified()).ok();
     let language = recognise(folder)?;
     let built = modified(component)?;
-    let mut left: Vec<PathBuf> = language.sources.iter().map(|it| folder.join(it)).collect();
+    let mut left: Vec<PathBuf> = Vec::new();
+    for source in language.sources {
+        match source.strip_prefix('*') {
+            None => left.push(folder.join(source)),
+            Some(ending) => left.extend(files_ending_in(folder, ending)),
+        }
+    }
     while let Some(path) = left.pop() {
         match fs::read_dir(&path) {
             Ok(entries) => left.extend(entries.filter_map(|it| Some(it.ok()?.path()))),
@@ -78,6 +84,12 @@ pub fn newer_source(folder: &Path, component: &Path) -> Option<PathBuf> {
         }
     }
     None
+}
+
+fn files_ending_in(folder: &Path, ending: &str) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let ends = |it: &fs::DirEntry| it.file_name().to_string_lossy().ends_with(ending);
+    entries.filter(ends).map(|it| it.path()).collect()
 }
 
 #[cfg(test)]

@@ -1,8 +1,15 @@
 //! [`LANGUAGES`]: the languages that robots are written in.
 
-use super::rust;
+use super::{go, node, python, rust};
 use crate::cli::project::language::Language;
 
 /// All of them, in the order in which projects are recognised: those with an unmistakable
 /// manifest first.
-pub const LANGUAGES: &[&Language] = &[&rust::LANGUAGE];
+pub const LANGUAGES: &[&Language] = &[
+    &rust::LANGUAGE,
+    &go::LANGUAGE,
+    &python::LANGUAGE,
+    // Before JavaScript, whose projects have the same files but one.
+    &node::TYPESCRIPT,
+    &node::JAVASCRIPT,
+];
