@@ -36,6 +36,8 @@ mod determinism;
 mod emulation;
 /// Every bundled robot: the same match natively, correct maps, and who must finish.
 mod every_robot;
+/// A failing robot: its own words, a match step by step, backtraces.
+mod explain;
 /// Killed processes, full disks, damaged files.
 mod faults;
 /// Results of every bundled robot, compared with a table to the last unit of fuel.
@@ -48,7 +50,7 @@ mod grade;
 mod hostile;
 /// Ctrl-C during a contest.
 mod interrupt;
-/// Robots in other languages.
+/// Robots in every language, built with the real tools.
 mod languages;
 /// Imports between the folders of the host.
 mod layers;
@@ -101,6 +103,8 @@ mod solver;
 mod store;
 /// Results on standard output, and pipes that close.
 mod streams;
+/// WebAssembly text as a robot.
+mod text;
 /// Pipes, links and hostile names in folders of submissions.
 mod untrusted_files;
 /// Verdicts that depend on the limits, and panics.

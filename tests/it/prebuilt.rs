@@ -5,7 +5,9 @@ use std::path::Path;
 
 use wasmouse_core::game::{FaultKind, Phase, SandboxLimits};
 use wasmouse_engine::bundled::{bundled, find};
-use wasmouse_engine::{Executor as _, Frame, InProcess, Limits, Recording, Runtime};
+use wasmouse_engine::{
+    Executor as _, Frame, FramePart, InProcess, Limits, Origin, Recording, Runtime,
+};
 use xtask::manifest::Manifest;
 use xtask::verify::BUILT_ROBOTS_VARIABLE;
 use xtask::{repository, robots};
@@ -119,9 +121,16 @@ fn a_backtrace_hides_the_runtime() {
     let fault = verdict.fault().expect("a panic");
     let frames = executor.backtrace(&robot, file, &spec, fault);
     let frames = frames.expect("the host works").expect("the same fault");
-    let of_robot = Frame::of_robot(&frames);
-    assert!(of_robot.len() < frames.len(), "{frames:?}");
-    let functions: Vec<&str> = of_robot.iter().map(|it| it.function.as_str()).collect();
+    let parts = Frame::folded(&frames);
+    assert!(
+        matches!(parts[0], FramePart::Folded { of: Origin::Rust, frames } if frames > 1),
+        "{frames:?}"
+    );
+    let of_robot = parts.iter().filter_map(|part| match part {
+        FramePart::Frame(frame) => Some(frame.function.as_str()),
+        FramePart::Folded { .. } => None,
+    });
+    let functions: Vec<&str> = of_robot.collect();
     assert!(functions[0].starts_with("<robot_flood::"), "{functions:?}");
     for hidden in ["panicking", "rust_", "function 0", "report_panics"] {
         assert!(

@@ -432,6 +432,10 @@ fn the_proposals_are_those_of_the_engine() {
         };
         let admitted = precheck(&file, &Limits::default());
         assert_eq!(admitted.is_ok(), engine_has_it, "{text}: {admitted:?}");
+        // Whoever needs one that is off is told which.
+        if let Err(rejection) = admitted {
+            assert_eq!(rejection.name(), "proposal", "{text}: {rejection}");
+        }
         counts[usize::from(engine_has_it)] += 1;
     }
     println!("{} are off, {} are on", counts[0], counts[1]);

@@ -1,14 +1,15 @@
 //! Robot projects and result files, as a robot's author uses them.
 
 use std::fs::{self, File};
+use std::io::{BufRead as _, BufReader};
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 use std::time::{Duration, SystemTime};
 
 use serde_json::Value;
 
 use crate::binary::{Ran, ran, wasmouse};
-use crate::hostile::Module;
+use crate::hostile::{Module, wasm};
 
 fn command(folder: &Path, arguments: &str) -> Command {
     let mut command = wasmouse();
@@ -58,6 +59,62 @@ fn a_project_is_built_and_played() {
     let warning = "warning: `mouse/mouse.wasm` is older than `mouse/src/lib.rs`";
     assert!(stderr.contains(warning), "{stderr}");
     assert!(stderr.contains("wasmouse build mouse"), "{stderr}");
+}
+
+#[test]
+fn a_build_shows_what_a_match_costs() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    fs::write(folder.join("bot.wasm"), wasm(&Module::default().wat())).expect("a file");
+    let Ran {
+        status,
+        stdout,
+        stderr,
+    } = ran(&mut command(folder, "build bot.wasm"));
+    assert!(status.success(), "{stdout}{stderr}");
+    for part in [
+        "bot.component.wasm\n  size     ",
+        " bytes (limit 33,554,432)\n  imports  nothing\n",
+        "\n  match    test_maze_01: ",
+        "\n  match    gen:division:20:1: ",
+        "\n  fuel     start ",
+        "\n  class    compiled: 1,000 such steps take ",
+    ] {
+        assert!(stdout.contains(part), "{part}: {stdout}");
+    }
+    let Ran { stdout, .. } = ran(&mut command(folder, "build bot.wasm --no-match"));
+    assert!(!stdout.contains("match"), "{stdout}");
+}
+
+#[test]
+fn a_build_that_watches_builds_again_until_it_is_interrupted() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    let module = folder.join("bot.wasm");
+    fs::write(&module, "nothing").expect("a file");
+    let mut build = command(folder, "build bot.wasm --watch --no-match");
+    let mut child = build
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("wasmouse can be started");
+    let stderr = child.stderr.take().expect("stderr is piped");
+    let mut lines = BufReader::new(stderr).lines().map(|it| it.expect("a line"));
+    // What does not compile is reported, and not the end.
+    let report: Vec<String> = lines.by_ref().take_while(|it| !it.contains("Ctrl-C")).collect();
+    assert!(report.concat().contains("error: "), "{report:?}");
+    fs::write(&module, wasm(&Module::default().wat())).expect("a file");
+    let report: Vec<String> = lines.by_ref().take_while(|it| !it.contains("Ctrl-C")).collect();
+    assert!(report.is_empty(), "{report:?}");
+    assert!(folder.join("bot.component.wasm").is_file());
+    #[cfg(unix)]
+    {
+        wasmouse_tests::program::signal(child.id(), "INT");
+        let status = child.wait().expect("it ends");
+        assert_eq!(status.code(), Some(130));
+    }
+    #[cfg(not(unix))]
+    child.kill().expect("it runs");
 }
 
 #[test]

@@ -22,6 +22,7 @@ pub fn build_all(root: &Path, output: &Path) -> Result<(), String> {
         let component = output.join(&name).with_extension("wasm");
         Step::new(format!("robot {name}"), root, wasmouse_binary(root))
             .args(["build".as_ref(), crate_folder.as_os_str()])
+            .args(["--no-match"])
             .args(["--output".as_ref(), component.as_os_str()])
             .run()?;
     }

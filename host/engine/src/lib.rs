@@ -37,7 +37,7 @@ pub use limits::{AdmissionLimits, Limits, STACK_BYTES};
 pub use local_executor::{Isolation, LocalExecutor, Trust};
 pub use runner::Recording;
 pub use runtime::{
-    AdmissionError, Cache, CacheUse, CompiledRobot, ENGINE_REVISION, Frame, Runtime,
-    WASMTIME_VERSION, engine_config, engine_id,
+    AdmissionError, Cache, CacheUse, CompiledRobot, ENGINE_REVISION, Frame, FramePart, Origin,
+    Runtime, WASMTIME_VERSION, engine_config, engine_id,
 };
-pub use time::{Account, CancelFlag, Control, MATCH_TIME_MAX};
+pub use time::{Account, CancelFlag, Control, MATCH_TIME_MAX, match_time_max, time_factor};

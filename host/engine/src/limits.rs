@@ -41,6 +41,9 @@ pub struct AdmissionLimits {
     /// Size of the component file, in bytes. Stops files that exhaust the host's memory
     /// before anything is known about them. Default 32 MiB.
     pub component_bytes_max: u64,
+    /// WebAssembly text, in bytes. Stops text whose tree in memory is 70 times as large.
+    /// Default 4 MiB.
+    pub text_bytes_max: u64,
     /// Core instances in one component. Stops small files that instantiate
     /// exponentially. Default 64.
     pub core_instances_max: u32,
@@ -172,6 +175,7 @@ impl AdmissionLimits {
     /// The default limits.
     pub const DEFAULT: Self = Self {
         component_bytes_max: 32 << 20,
+        text_bytes_max: 4 << 20,
         core_instances_max: 64,
         memories_max: 8,
         tables_max: 16,
@@ -220,11 +224,12 @@ impl AdmissionLimits {
             .saturating_add(self.lowered_functions_max)
     }
 
-    /// The identity of the limits. Canonical encoding `wasmouse.admission.3`
+    /// The identity of the limits. Canonical encoding `wasmouse.admission.4`
     /// ([`DigestBuilder`]): the fields as numbers, in their order.
     pub fn digest(&self) -> Digest {
         let Self {
             component_bytes_max,
+            text_bytes_max,
             core_instances_max,
             memories_max,
             tables_max,
@@ -264,9 +269,10 @@ impl AdmissionLimits {
             memory_mib_max,
             work_ms_max,
         } = *self;
-        DigestBuilder::new("wasmouse.admission.3")
+        DigestBuilder::new("wasmouse.admission.4")
             .numbers(&[
                 component_bytes_max,
+                text_bytes_max,
                 core_instances_max.into(),
                 memories_max.into(),
                 tables_max.into(),

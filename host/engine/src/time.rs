@@ -10,13 +10,37 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 use std::time::Duration;
 
+use wasmouse_core::game::SandboxLimits;
+
 use crate::error::{InfrastructureError, Withdrawal};
 
-/// Processor time of a match after which it is given up, by default. All the fuel of the
-/// default limits lasts 2 s in a robot like flood and 25 s in work that takes ten times as long
+/// Processor time of a match after which it is given up, by default and for [`MATCH_FUEL`]. All
+/// of that fuel lasts 2 s in a robot like flood and 25 s in work that takes ten times as long
 /// for its fuel; the rest is for slower machines. What reaches this is a robot that waits for
 /// memory all the time.
 pub const MATCH_TIME_MAX: Duration = Duration::from_secs(60);
+
+/// The match fuel that default times are about: that of the default limits.
+const MATCH_FUEL: u64 = 20_000_000_000;
+
+/// No default time of a match is longer.
+const FACTOR_MAX: u64 = 24 * 60;
+
+/// How many times [`MATCH_FUEL`] a match may use, rounded up. Default times are multiplied by it,
+/// so that a robot that uses all its fuel is never put off for its time. Range: 1 to 1440.
+pub const fn time_factor(limits: &SandboxLimits) -> u64 {
+    match limits.match_fuel_max.div_ceil(MATCH_FUEL) {
+        0 => 1,
+        FACTOR_MAX.. => FACTOR_MAX,
+        factor => factor,
+    }
+}
+
+/// Processor time of a match under these limits after which it is given up, by default:
+/// [`MATCH_TIME_MAX`] for the default limits and those with less fuel, up to a day for more.
+pub const fn match_time_max(limits: &SandboxLimits) -> Duration {
+    Duration::from_secs(MATCH_TIME_MAX.as_secs() * time_factor(limits))
+}
 
 /// How often a robot may exceed the time of a match. The second time may still be an accident of
 /// the machine, but the contest does not wait for a third.
@@ -281,6 +305,8 @@ pub(crate) fn clock_time(clock: libc::clockid_t) -> Option<Duration> {
 mod tests {
     use std::thread;
 
+    use wasmouse_core::game::FuelClass;
+
     use super::*;
 
     const SECOND: Duration = Duration::from_secs(1);
@@ -297,6 +323,24 @@ mod tests {
             account.withdrawal(),
             Some(Withdrawal::Spent { seconds: 1001 })
         );
+    }
+
+    #[test]
+    fn default_times_grow_with_the_fuel() {
+        let time = |fuel| {
+            match_time_max(&SandboxLimits {
+                match_fuel_max: fuel,
+                ..SandboxLimits::default()
+            })
+        };
+        assert_eq!(MATCH_FUEL, SandboxLimits::default().match_fuel_max);
+        for fuel in [0, 1, MATCH_FUEL] {
+            assert_eq!(time(fuel), MATCH_TIME_MAX);
+        }
+        assert_eq!(time(MATCH_FUEL + 1), 2 * MATCH_TIME_MAX);
+        let interpreted = FuelClass::Interpreted.limits();
+        assert_eq!(match_time_max(&interpreted), 10 * MATCH_TIME_MAX);
+        assert_eq!(time(u64::MAX), Duration::from_secs(86_400));
     }
 
     #[test]

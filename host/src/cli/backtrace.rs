@@ -7,20 +7,19 @@ use std::collections::BTreeSet;
 
 use wasmouse_core::Digest;
 use wasmouse_core::game::FaultKind;
-use wasmouse_engine::{Executor, Frame, LocalExecutor};
+use wasmouse_engine::{Executor, LocalExecutor};
 
 use super::again::maze_of;
 use super::output::message;
 use super::robots::RobotSpec;
 use crate::contest::{FaultSummary, Plan, Player};
-use crate::report::escape::for_terminal;
+use crate::report::backtrace::backtrace;
 use crate::report::text::Text;
 
 /// Robots that get a backtrace: each is compiled once more.
 const ROBOTS_MAX: usize = 5;
 
-/// Prints to stderr where robots were in their code when they first failed. `specs` are those of
-/// the plan's entrants, in order. Backtraces are optional: one that cannot be made is reported.
+/// Prints to stderr where robots were in their code when they first failed.
 pub fn print(
     plan: &Plan,
     players: &[Player],
@@ -28,6 +27,21 @@ pub fn print(
     executor: &LocalExecutor,
     faults: &FaultSummary,
 ) {
+    for backtrace in all(plan, players, specs, executor, faults) {
+        message!("{}", Text::of_lines(&backtrace));
+    }
+}
+
+/// Where robots were in their code when they first failed, as text. `specs` are those of the
+/// plan's entrants, in order. Backtraces are optional: one that cannot be made is reported.
+pub fn all(
+    plan: &Plan,
+    players: &[Player],
+    specs: &[RobotSpec],
+    executor: &LocalExecutor,
+    faults: &FaultSummary,
+) -> Vec<String> {
+    let mut backtraces = Vec::new();
     let mut seen = BTreeSet::new();
     let groups = faults.groups().filter(|group| {
         let fault = group.first.verdict.fault();
@@ -51,33 +65,13 @@ pub fn print(
             continue;
         }
         let spec = plan.spec(plan.key_parts(), player, &maze, group.first.key.seed);
-        let backtrace = executor.backtrace(&player.robot, &file, &spec, fault);
+        let found = executor.backtrace(&player.robot, &file, &spec, fault);
         let name = &plan.entrants[entrant].name;
-        match backtrace {
-            Ok(Some(frames)) if !frames.is_empty() => print_frames(name, &frames),
+        match found {
+            Ok(Some(frames)) if !frames.is_empty() => backtraces.push(backtrace(name, &frames)),
             Ok(_) => {}
             Err(error) => message!("warning: no backtrace of `{}`: {}", name, error),
         }
     }
-}
-
-fn print_frames(robot: &str, frames: &[Frame]) {
-    let robot = for_terminal(robot);
-    let mut lines = format!("backtrace of `{robot}` (most recent call first):");
-    let shown = Frame::of_robot(frames);
-    for (depth, frame) in shown.iter().enumerate() {
-        let function = for_terminal(&frame.function);
-        lines.push_str(&format!("\n  {depth:>2}: {function}"));
-        if let Some(source) = &frame.source {
-            lines.push_str(&format!(" at {}", for_terminal(source)));
-        } else if let Some(offset) = frame.offset {
-            lines.push_str(&format!(" at offset {offset:#x}"));
-        }
-    }
-    match frames.len() - shown.len() {
-        0 => {}
-        1 => lines.push_str("\n  (1 frame of the Rust runtime hidden)"),
-        hidden => lines.push_str(&format!("\n  ({hidden} frames of the Rust runtime hidden)")),
-    }
-    message!("{}", Text::of_lines(&lines));
+    backtraces
 }

@@ -1,8 +1,11 @@
-//! `wasmouse build`: turns a robot project or a core module into a component file.
+//! `wasmouse build`: turns a robot project, a core module or WebAssembly text into a component
+//! file, and shows what a match of it costs.
 //!
 //! Compiling is the work of [`super::project`].
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+use std::thread;
+use std::time::Duration;
 
 use wasmouse_engine::Limits;
 use wasmouse_engine::admission::examine;
@@ -10,8 +13,12 @@ use wasmouse_engine::admission::examine;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::input;
-use super::output::{self, Existing};
+use super::interrupt;
+use super::output::{self, Existing, message};
 use super::project::{self, Options, to_component};
+use super::samples;
+use super::setup::{CacheArgs, IsolationArgs};
+use crate::report::built;
 use crate::report::text::{Text, text};
 
 const EXAMPLES: &str = "\
@@ -19,20 +26,23 @@ Examples:
   wasmouse build                       the project in this folder
   wasmouse build my-robot              writes my-robot/my-robot.wasm
   wasmouse build my-robot -o bot.wasm
+  wasmouse build my-robot --watch      builds and plays again when a file changes
   wasmouse build module.wasm           wraps a core module of any language
+  wasmouse build robot.wat             the same for WebAssembly text
 
-The wasm target is added with rustup if it is missing. If rustup cannot fetch it,
-a packaged compiler is used (Debian: rustc-web, rust-web-src, lld-22).";
+Rust: the wasm target is added with rustup if it is missing. If rustup cannot fetch it,
+a packaged compiler is used (Debian: rustc-web, rust-web-src, lld-22).
+Other languages: `wasmouse doctor` says what they need.";
 
-/// Build a robot project, or wrap a core module, into a component
+/// Build a robot project, a core module or WebAssembly text into a component
 ///
-/// For a project, runs `cargo build` for wasm32-unknown-unknown and writes
-/// NAME.wasm into the project folder. For a core module FILE.wasm, writes
-/// FILE.component.wasm beside it.
+/// A project is compiled with the tools of its language, and NAME.wasm is written into its folder.
+/// For a core module FILE.wasm or text FILE.wat, FILE.component.wasm is written beside it. Then the robot plays a
+/// match in a known maze and one in a large maze, to show its fuel beside the limits.
 #[derive(clap::Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
-    /// Robot project folder, or a core module (.wasm)
+    /// Robot project folder, a core module (.wasm) or WebAssembly text (.wat)
     #[arg(default_value = ".")]
     path: PathBuf,
     /// Output file for the component
@@ -41,6 +51,16 @@ pub struct Args {
     /// Cargo profile to build a Rust project with [default: release]
     #[arg(long, value_name = "NAME")]
     profile: Option<String>,
+    /// Build again whenever a source file changes, until Ctrl-C
+    #[arg(long)]
+    watch: bool,
+    /// Do not play the sample matches
+    #[arg(long)]
+    no_match: bool,
+    #[command(flatten)]
+    cache: CacheArgs,
+    #[command(flatten)]
+    isolation: IsolationArgs,
 }
 
 /// The largest core module that is turned into a component, in bytes. No robot is admitted that
@@ -50,62 +70,75 @@ const CORE_MODULE_BYTES_MAX: u64 = 256 << 20;
 /// The interface without functions, in any version.
 const TYPES_INTERFACE: &str = "wasmouse:robot/types@";
 
+/// How often the sources are looked at.
+const INTERVAL: Duration = Duration::from_millis(300);
+
 /// Builds, writes, and prints what was built.
 pub fn run(args: &Args) -> Result<Exit, Failure> {
-    let (component, default_output) = if args.path.is_dir() {
-        let project = project::find(&args.path)?;
-        let options = Options {
-            profile: args.profile.clone(),
-        };
-        (project.build(&options)?, project.component())
-    } else {
-        let module = input::read_file(&args.path, CORE_MODULE_BYTES_MAX).map_err(|error| {
-            Failure::input(text!(
-                "failed to read `{}`: {}",
-                Text::of_path(&args.path),
-                error
-            ))
-            .hint("give the folder of a robot project or a core module (.wasm)")
-        })?;
-        let component = to_component(&module, &args.path)?;
-        (component, args.path.with_extension("component.wasm"))
-    };
-    let file = args.output.as_deref().unwrap_or(&default_output);
-    output::save(file, &component, Existing::Replace)?;
-    output::print(Built::new(file, &component).text().as_str())?;
+    if args.watch {
+        interrupt::listen()?;
+        return args.watch();
+    }
+    args.build()?;
     Ok(Exit::Success)
 }
 
-/// What is printed about a component: file, size, imports.
-struct Built<'a> {
-    path: &'a Path,
-    size_bytes: usize,
-    imports: Vec<String>,
-}
-
-impl<'a> Built<'a> {
-    fn new(path: &'a Path, component: &[u8]) -> Self {
-        Self {
-            path,
-            size_bytes: component.len(),
-            imports: imports(component),
-        }
-    }
-}
-
-impl Built<'_> {
-    fn text(&self) -> Text {
-        let imports = if self.imports.is_empty() {
-            "nothing".to_owned()
+impl Args {
+    fn build(&self) -> Result<(), Failure> {
+        let (component, default_output) = if self.path.is_dir() {
+            let project = project::find(&self.path)?;
+            let options = Options {
+                profile: self.profile.clone(),
+            };
+            (project.build(&options)?, project.component())
         } else {
-            self.imports.join(", ")
+            let module = input::read_file(&self.path, CORE_MODULE_BYTES_MAX).map_err(|error| {
+                Failure::input(text!(
+                    "failed to read `{}`: {}",
+                    Text::of_path(&self.path),
+                    error
+                ))
+                .hint("give the folder of a robot project, a core module (.wasm) or text (.wat)")
+            })?;
+            let component = to_component(&module, &self.path)?;
+            (component, self.path.with_extension("component.wasm"))
         };
-        text!(
-            "{}: {} bytes, imports {}\n",
-            Text::of_path(self.path),
-            self.size_bytes,
-            imports
-        )
+        let file = self.output.as_deref().unwrap_or(&default_output);
+        output::save(file, &component, Existing::Replace)?;
+        let size_max = Limits::default().admission.component_bytes_max;
+        let text = built::component(
+            &Text::of_path(file),
+            component.len(),
+            size_max,
+            &imports(&component),
+        );
+        output::print(text.as_str())?;
+        if !self.no_match {
+            let played = samples::play(file, &self.cache, &self.isolation)?;
+            output::print(built::samples(&played).as_str())?;
+        }
+        Ok(())
+    }
+
+    /// Builds again when something has changed. A project that does not compile is reported, and
+    /// may become right again.
+    fn watch(&self) -> Result<Exit, Failure> {
+        loop {
+            let before = project::sources(&self.path)?;
+            if let Err(failure) = self.build() {
+                message!("{}", failure.report());
+            }
+            message!("waiting for a change of the sources; Ctrl-C ends");
+            loop {
+                if interrupt::flag().is_set() {
+                    return Ok(Exit::Interrupted);
+                }
+                thread::sleep(INTERVAL);
+                if project::sources(&self.path)? != before {
+                    break;
+                }
+            }
+        }
     }
 }
 

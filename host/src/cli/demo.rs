@@ -6,6 +6,7 @@ use wasmouse_core::maze::bundled as bundled_mazes;
 use wasmouse_core::record::trace;
 use wasmouse_engine::bundled::bundled as bundled_robots;
 
+use super::complaints;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::mazes::{self, BadFiles, Legality};
@@ -87,8 +88,10 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     let standings = &results.summary.standings;
     output::print(&table::standings(&results.contest, standings, layout))?;
     print_best_run(args, &plan, &players, &results, page.best())?;
-    print_faults(&plan, &players, &results, &faults);
-    page.write(html, &args.html, &plan, results.summary.digest)?;
+    let complaints = complaints::collect(&plan, &players, &executor, &faults);
+    print_faults(&plan, &players, &results, (&faults, &complaints));
+    let digest = results.summary.digest;
+    page.write(html, &args.html, &plan, (digest, &complaints))?;
     Ok(exit(&plan, &results))
 }
 

@@ -7,8 +7,9 @@ use wasmouse_engine::{Executor, InfrastructureError};
 
 use super::again::play_again;
 use super::output::message;
-use crate::contest::{Plan, Player, Results};
+use crate::contest::{Complaint, Plan, Player, Results};
 use crate::report::escape::for_terminal;
+use crate::report::faults::explained;
 
 /// Plays every match that has a journal again and prints its log lines to stderr. Robots do
 /// not influence each other, so a match that cannot be played again is only reported.
@@ -49,6 +50,11 @@ pub fn print(plan: &Plan, players: &[Player], executor: &dyn Executor, results: 
                 let level = level_name(level);
                 message!("{:>6} {:<7} {}", entry.step, level, text);
             }
+        }
+        if let Some(fault) = record.verdict.fault() {
+            let complaint = Complaint::of(journal, fault);
+            let explained = explained(fault, Some(&complaint));
+            message!("{:>6} {:<7} {}", fault.step, "fault", explained);
         }
         let dropped = record.journal.dropped;
         if dropped > 0 {

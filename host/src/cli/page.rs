@@ -9,7 +9,8 @@ use wasmouse_engine::engine_id;
 use super::failure::Failure;
 use super::output::{self, Draft, message};
 use crate::contest::{
-    BestMatch, BestMatches, HardestMazes, MatrixBuilder, Plan, Player, ScoreMatrix, Scoring, Sink,
+    BestMatch, BestMatches, Complaints, HardestMazes, MatrixBuilder, Plan, Player, ScoreMatrix,
+    Scoring, Sink,
 };
 use crate::report::contest::{
     ContestReport, MatchPicture, PICTURES_MAX, Pictures, ReportOptions, html,
@@ -48,7 +49,8 @@ impl PageBuilder {
         self.best.best()
     }
 
-    /// Draws the pictures and writes the page. `digest` is that of the results.
+    /// Draws the pictures and writes the page. `digest` is that of the results; complaints go with
+    /// the faults.
     ///
     /// # Errors
     ///
@@ -58,7 +60,7 @@ impl PageBuilder {
         mut draft: Draft,
         path: &Path,
         plan: &Plan,
-        digest: Digest,
+        (digest, complaints): (Digest, &Complaints),
     ) -> Result<(), Failure> {
         let players = plan.players();
         let matrix = self.matrix.finish();
@@ -74,7 +76,11 @@ impl PageBuilder {
         let name = "wasmouse contest";
         let report = ContestReport::new(name, &matrix, &scoring, &engine, plan.matches(), options)
             .with_results_digest(digest)
-            .with_pictures(Pictures { best, hardest });
+            .with_pictures(Pictures { best, hardest })
+            .with_complaints(complaints.iter().flat_map(|(player, kind, complaint)| {
+                let robots = players[player].entrants.iter();
+                robots.map(move |&robot| ((robot, kind), complaint.clone()))
+            }));
         // Names are escaped where they are put into the page; this is for one that was forgotten.
         let page = Text::of_lines(&html(&report));
         let written = draft.write_all(page.as_str().as_bytes());

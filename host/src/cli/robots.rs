@@ -28,7 +28,8 @@ pub const SPECIFICATION_HELP: &str = "\
 A robot is one of:
   flood          the name of a bundled robot (see `wasmouse robots`)
   bot.wasm       a component, or a core module that can be turned into one
-  submissions    a folder: all its .wasm files by name, without subfolders
+  bot.wat        either of them as WebAssembly text
+  submissions    a folder: all its .wasm and .wat files by name, without subfolders
   my-robot       a robot project (a folder with a Cargo.toml): it is built first
   flood:certain  any of these followed by a variant: its number or, for bundled
                  robots, its name (default: 0)
@@ -55,7 +56,7 @@ pub fn is_robot(argument: &str) -> bool {
     let names_robot = |text: &str| {
         let path = Path::new(text);
         find(text).is_some()
-            || has_wasm_extension(path)
+            || has_robot_extension(path)
             || project::is_project(path)
             || (path.is_dir() && has_robots(path))
     };
@@ -157,30 +158,33 @@ fn bundled_variant(robot: &BundledRobot, text: &str) -> Result<u32, Failure> {
 /// When the folder cannot be read or has no robots.
 pub fn folder(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     let shown = for_terminal(&path.display().to_string());
-    let files = wasm_files(path).map_err(|error| {
+    let files = robot_files(path).map_err(|error| {
         Failure::input(format!("failed to read robots from `{shown}`: {error}"))
     })?;
     if files.is_empty() {
         return Err(Failure::input(format!("folder `{shown}` has no robots"))
-            .hint("robots are files that end in .wasm"));
+            .hint("robots are files that end in .wasm or .wat"));
     }
     Ok(files)
 }
 
 /// Whether a folder has robots in files.
 pub fn has_robots(folder: &Path) -> bool {
-    input::has_any(folder, has_wasm_extension)
+    input::has_any(folder, has_robot_extension)
 }
 
-/// The files in a folder that end in `.wasm`, by name.
-fn wasm_files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
-    input::list(folder, has_wasm_extension)
+/// The files in a folder that end in `.wasm` or `.wat`, by name.
+fn robot_files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
+    input::list(folder, has_robot_extension)
 }
 
-/// Whether a file has the extension of robots.
-pub fn has_wasm_extension(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|extension| extension.eq_ignore_ascii_case("wasm"))
+/// Whether a file has an extension of robots. What it is depends on its content alone.
+pub fn has_robot_extension(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| {
+        ["wasm", "wat"]
+            .iter()
+            .any(|it| extension.eq_ignore_ascii_case(it))
+    })
 }
 
 /// Warns about a component beside a robot project whose sources are newer.
@@ -327,7 +331,7 @@ pub fn unknown_hint(text: &str) -> String {
     suggestion(text, names.clone()).unwrap_or_else(|| {
         let names: Vec<&str> = names.collect();
         format!(
-            "give a .wasm file, a folder of them, or one of the bundled robots: {}",
+            "give a .wasm or .wat file, a folder of them, or one of the bundled robots: {}",
             names.join(", ")
         )
     })
@@ -520,7 +524,7 @@ mod tests {
     fn folders_of_robots_are_sorted_and_shallow() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         fs::create_dir(folder.path().join("deeper.wasm")).expect("a folder");
-        for name in ["b.wasm", "a.WASM", "README.md"] {
+        for name in ["b.wasm", "a.WASM", "c.wat", "README.md"] {
             fs::write(folder.path().join(name), "").expect("a file");
         }
         let argument = folder.path().to_str().expect("UTF-8");
@@ -530,7 +534,7 @@ mod tests {
             .iter()
             .map(RobotSpec::short_name)
             .collect();
-        assert_eq!(names, ["a", "b"]);
+        assert_eq!(names, ["a", "b", "c"]);
         let failure = resolve(&format!("ann={argument}")).expect_err("two robots, one name");
         assert!(
             failure.to_string().contains("more than one robot"),

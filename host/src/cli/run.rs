@@ -17,11 +17,13 @@ use super::play::{Pace, play_all};
 use super::robots::{self, RobotSpec};
 use super::setup::{IsolationArgs, SeedArgs, SetupArgs, TimeArgs};
 use super::verdict::{exit, print_faults};
-use super::{backtrace, fail_under, interrupt, log, reproduce, terminal, watch};
+use super::{
+    backtrace, complaints, explain, fail_under, interrupt, log, reproduce, terminal, watch,
+};
 use crate::contest::grade::Thresholds;
 use crate::contest::{
-    ContestInfo, FaultSummary, MatrixBuilder, Plan, Player, RESULTS_VERSION, RecordList, Results,
-    ScoreMatrix, Sink, StandingsBuilder, Summary, SummaryBuilder, Tee,
+    Complaints, ContestInfo, FaultSummary, MatrixBuilder, Plan, Player, RESULTS_VERSION,
+    RecordList, Results, ScoreMatrix, Sink, StandingsBuilder, Summary, SummaryBuilder, Tee,
 };
 use crate::report::escape::for_terminal;
 use crate::report::jsonl::JsonLines;
@@ -38,6 +40,7 @@ Examples:
   wasmouse run flood dfs gen:tree:16:1..=100  two robots in 100 generated mazes
   wasmouse run random --maze test_maze_01 --repeat 20
   wasmouse run flood test_maze_01 --watch
+  wasmouse run my-robot test_maze_01 --explain
   wasmouse run my-robot --fail-under finished=95%,regret=12.5,faults=0
 
 Exit codes:
@@ -109,6 +112,10 @@ pub struct Args {
     /// Print robot log messages to stderr
     #[arg(long)]
     log: bool,
+    /// Print the match step by step: readings, action, fuel, log lines, paints and labels, and the
+    /// backtrace of its fault; for one robot in one maze
+    #[arg(long, conflicts_with_all = ["json", "log", "watch"])]
+    explain: bool,
     /// Show the match step by step on the terminal; for one robot in one maze
     #[arg(long, conflicts_with_all = ["json", "log"])]
     watch: bool,
@@ -159,9 +166,13 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     if !args.json {
         args.print_tables(&plan, results)?;
     }
-    print_faults(&plan, &players, results, &played.faults);
+    let complaints = match interrupt::flag().is_set() {
+        true => Complaints::default(),
+        false => complaints::collect(&plan, &players, &executor, &played.faults),
+    };
+    print_faults(&plan, &players, results, (&played.faults, &complaints));
     if let (Some(html), Some(path), Some(page)) = (html, &args.html, played.page) {
-        page.write(html, path, &plan, results.summary.digest)?;
+        page.write(html, path, &plan, (results.summary.digest, &complaints))?;
     }
     let mut exit = exit(&plan, results);
     if exit == Exit::Interrupted {
@@ -171,7 +182,10 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         exit = fail_under::exit(thresholds, matrix, exit);
     }
     interrupt::stop_listening();
-    if !args.json {
+    if args.explain {
+        let executor = (robots.as_slice(), &executor);
+        explain::print(&plan, &players, executor, (results, &played.faults))?;
+    } else if !args.json {
         backtrace::print(&plan, &players, &robots, &executor, &played.faults);
     }
     if args.log {
@@ -254,7 +268,7 @@ impl Args {
         let mut faults = FaultSummary::default();
         let mut page = self.html.as_ref().map(|_| PageBuilder::new(plan));
         let mut matrix = self.fail_under.as_ref().map(|_| MatrixBuilder::new(plan));
-        let needs_list = self.matches || self.log || self.watch || self.reproduce;
+        let needs_list = self.matches || self.log || self.watch || self.explain || self.reproduce;
         let mut list = RecordList::new(if needs_list { u64::MAX } else { LISTED_MAX });
         let path = self.output.as_deref().unwrap_or(Path::new(""));
         let file_failed = |error: io::Error| {

@@ -7,9 +7,9 @@ use std::thread;
 use std::time::Duration;
 
 use etcetera::BaseStrategy as _;
-use wasmouse_core::game::Ruleset;
+use wasmouse_core::game::{Ruleset, SandboxLimits};
 use wasmouse_engine::sandbox::{Executable, PATIENCE, WorkerOptions};
-use wasmouse_engine::{Cache, Control, Isolation, LocalExecutor, MATCH_TIME_MAX};
+use wasmouse_engine::{Cache, Control, Isolation, LocalExecutor, match_time_max};
 
 use super::failure::Failure;
 use super::interrupt;
@@ -20,8 +20,9 @@ use crate::report::text::text;
 /// How robots are run.
 #[derive(clap::Args, Debug)]
 pub struct SetupArgs {
-    /// Ruleset: `udacity` (1000 steps for both runs together) or `udacity-each-run`
-    /// (1000 steps for each run)
+    /// Ruleset: `udacity` (1000 steps for both runs together), `udacity-each-run` (1000 steps for
+    /// each run), or one of these with the fuel that Python and JavaScript need,
+    /// `udacity-interpreted` or `udacity-each-run-interpreted`
     #[arg(long, value_name = "NAME", default_value = "udacity", value_parser = rules)]
     pub rules: Ruleset,
     #[command(flatten)]
@@ -34,6 +35,13 @@ pub struct EngineArgs {
     /// Number of matches to play in parallel, at most 1024 [default: number of cores]
     #[arg(long, short, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
+    #[command(flatten)]
+    cache: CacheArgs,
+}
+
+/// Where compiled robots are kept.
+#[derive(clap::Args, Clone, Debug)]
+pub struct CacheArgs {
     /// Cache directory for compiled robots [default: the user's cache directory]
     #[arg(long, value_name = "DIR", env = "WASMOUSE_CACHE")]
     cache: Option<PathBuf>,
@@ -96,15 +104,15 @@ impl SeedArgs {
 }
 
 /// How long robots may take.
-#[derive(clap::Args, Debug)]
+#[derive(clap::Args, Debug, Default)]
 pub struct TimeArgs {
     /// Processor time of a match, in seconds. A match that takes longer is played once more; it
-    /// is never a verdict
-    #[arg(long, value_name = "SECONDS", default_value_t = MATCH_TIME_MAX.as_secs(),
-          value_parser = clap::value_parser!(u64).range(1..=86_400))]
-    match_time: u64,
+    /// is never a verdict [default: 60; 600 by interpreted rules]
+    #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..=86_400))]
+    match_time: Option<u64>,
     /// Processor time that each robot may use in all its matches, in seconds, before it is
-    /// withdrawn [default: 300, and 2 more for each of its matches]
+    /// withdrawn [default: 300, and 2 more for each of its matches; ten times as much by
+    /// interpreted rules]
     #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
     robot_time: Option<u64>,
 }
@@ -113,7 +121,7 @@ impl TimeArgs {
     /// Processor time of a match and of each robot; `None` is the default.
     pub fn new(match_time: Option<Duration>, robot_time: Option<Duration>) -> Self {
         Self {
-            match_time: match_time.unwrap_or(MATCH_TIME_MAX).as_secs(),
+            match_time: match_time.map(|it| it.as_secs()),
             robot_time: robot_time.map(|it| it.as_secs()),
         }
     }
@@ -123,19 +131,11 @@ impl TimeArgs {
         self.robot_time.map(Duration::from_secs)
     }
 
-    fn control(&self) -> Control {
+    fn control(&self, limits: &SandboxLimits) -> Control {
+        let given = self.match_time.map(Duration::from_secs);
         Control {
-            match_time: Duration::from_secs(self.match_time),
+            match_time: given.unwrap_or_else(|| match_time_max(limits)),
             cancel: interrupt::flag().clone(),
-        }
-    }
-}
-
-impl Default for TimeArgs {
-    fn default() -> Self {
-        Self {
-            match_time: MATCH_TIME_MAX.as_secs(),
-            robot_time: None,
         }
     }
 }
@@ -159,11 +159,11 @@ impl SetupArgs {
     pub fn executor(&self) -> LocalExecutor {
         let engine = &self.engine;
         let rules = Arc::new(self.rules.clone());
-        let control = TimeArgs::default().control();
+        let control = TimeArgs::default().control(&rules.sandbox);
         executor(
             rules,
             engine.jobs(),
-            engine.open_cache(),
+            engine.cache.open(),
             (Isolation::None, control),
         )
     }
@@ -209,11 +209,27 @@ impl EngineArgs {
         isolation: &IsolationArgs,
         time: &TimeArgs,
     ) -> Result<LocalExecutor, Failure> {
-        let isolation = isolation.isolation(time)?;
-        Ok(executor(rules, self.jobs(), self.open_cache(), isolation))
+        let isolation = isolation.isolation(time, &rules.sandbox)?;
+        Ok(executor(rules, self.jobs(), self.cache.open(), isolation))
+    }
+}
+
+impl CacheArgs {
+    /// An executor for one match at a time.
+    ///
+    /// # Errors
+    ///
+    /// When the program cannot find itself, to start workers from.
+    pub fn executor(
+        &self,
+        rules: Arc<Ruleset>,
+        isolation: &IsolationArgs,
+    ) -> Result<LocalExecutor, Failure> {
+        let isolation = isolation.isolation(&TimeArgs::default(), &rules.sandbox)?;
+        Ok(executor(rules, 1, self.open(), isolation))
     }
 
-    fn open_cache(&self) -> Option<Cache> {
+    fn open(&self) -> Option<Cache> {
         if self.no_cache {
             return None;
         }
@@ -257,12 +273,17 @@ pub fn independent_executor(
     isolation: &IsolationArgs,
     time: &TimeArgs,
 ) -> Result<LocalExecutor, Failure> {
-    Ok(executor(rules, jobs, None, isolation.isolation(time)?))
+    let isolation = isolation.isolation(time, &rules.sandbox)?;
+    Ok(executor(rules, jobs, None, isolation))
 }
 
 impl IsolationArgs {
-    fn isolation(&self, time: &TimeArgs) -> Result<(Isolation, Control), Failure> {
-        let control = time.control();
+    fn isolation(
+        &self,
+        time: &TimeArgs,
+        limits: &SandboxLimits,
+    ) -> Result<(Isolation, Control), Failure> {
+        let control = time.control(limits);
         if self.trust {
             return Ok((Isolation::None, control));
         }

@@ -1,6 +1,7 @@
 //! [`TrialArgs`]: robots played in many mazes for the numbers alone, for every command that
 //! compares them.
 
+use super::complaints;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::mazes::{self, BadFiles, Legality};
@@ -85,7 +86,8 @@ impl TrialArgs {
             matches: Vec::new(),
             summary: summary.finish(&plan, standings.finish(&plan, &players)),
         };
-        print_faults(&plan, &players, &results, &faults);
+        let complaints = complaints::collect(&plan, &players, &executor, &faults);
+        print_faults(&plan, &players, &results, (&faults, &complaints));
         let is_rejected = plan.entrants.iter().any(|it| it.admission.is_err());
         let exit = match exit(&plan, &results) {
             // What is asked for is how robots compare, and faults are part of it.

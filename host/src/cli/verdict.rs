@@ -2,7 +2,7 @@
 
 use super::exit::Exit;
 use super::output::message;
-use crate::contest::{FaultSummary, NotAdmitted, Plan, Player, Results, RobotEntry};
+use crate::contest::{Complaints, FaultSummary, NotAdmitted, Plan, Player, Results, RobotEntry};
 use crate::report::escape::for_terminal;
 use crate::report::faults::faults;
 
@@ -65,8 +65,13 @@ pub fn exit(plan: &Plan, results: &Results) -> Exit {
     }
 }
 
-/// Reports on stderr why robots were rejected or faulted.
-pub fn print_faults(plan: &Plan, players: &[Player], results: &Results, summary: &FaultSummary) {
+/// Reports on stderr why robots were rejected or faulted, with what they wrote about it.
+pub fn print_faults(
+    plan: &Plan,
+    players: &[Player],
+    results: &Results,
+    (summary, complaints): (&FaultSummary, &Complaints),
+) {
     for entrant in &plan.entrants {
         if let Err(NotAdmitted::Rejected(rejection)) = &entrant.admission {
             message!(
@@ -84,7 +89,7 @@ pub fn print_faults(plan: &Plan, players: &[Player], results: &Results, summary:
         let line = lines.iter().find(|line| line.robot == *name);
         line.map_or(0, |line| line.matches)
     };
-    let text = faults(summary, &results.names(), played);
+    let text = faults(summary, complaints, &results.names(), played);
     for line in text.lines() {
         message!("{}", line);
     }

@@ -7,6 +7,7 @@
 mod benchmark;
 mod best;
 mod commitment;
+mod complaint;
 pub mod config;
 mod difference;
 mod faults;
@@ -31,6 +32,7 @@ pub use best::{BestMatch, BestMatches};
 pub use commitment::{
     Broken, COMMITMENT_VERSION, Commitment, CommittedSet, OpenedMaze, OpenedSet, Opening,
 };
+pub use complaint::{Complaint, Complaints};
 pub use difference::{FieldDifference, differences};
 pub use faults::{FaultGroup, FaultSummary};
 pub use file::{

@@ -19,8 +19,9 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::thread;
 use std::time::Duration;
 
+use wasmouse_core::game::SandboxLimits;
 use wasmouse_core::record::{MatchKey, MatchSpec};
-use wasmouse_engine::{Executor, InfrastructureError, Played, STACK_BYTES};
+use wasmouse_engine::{Executor, InfrastructureError, Played, STACK_BYTES, time_factor};
 
 use super::maze_source::ContestMaze;
 use super::plan::{KeyParts, Plan, Player};
@@ -43,9 +44,11 @@ const BLOCKS_AHEAD: usize = 8;
 
 /// Processor time that a robot may use in a contest of that many matches of its own, by default.
 /// All the fuel of a match lasts 1 to 2 s in a robot like flood, so such a robot never reaches it;
-/// one that uses all its fuel ten times as slowly does after some ten matches.
-pub const fn default_robot_time(matches: u64) -> Duration {
-    Duration::from_secs(300_u64.saturating_add(matches.saturating_mul(2)))
+/// one that uses all its fuel ten times as slowly does after some ten matches. Limits with more
+/// fuel have as many times more time.
+pub const fn default_robot_time(matches: u64, limits: &SandboxLimits) -> Duration {
+    let seconds = 300_u64.saturating_add(matches.saturating_mul(2));
+    Duration::from_secs(seconds.saturating_mul(time_factor(limits)))
 }
 
 /// How a contest is run.
@@ -94,7 +97,7 @@ pub fn run(
     if players.is_empty() || rows == 0 {
         return Ok(());
     }
-    set_budgets(&players, rows, options.robot_time);
+    set_budgets(&players, rows, options.robot_time, &plan.rules.sandbox);
     let block_rows = (BLOCK_MATCHES_MAX / players.len()).clamp(1, BLOCK_ROWS_MAX);
     let batch = plan.matches() / (jobs as u64 * BATCHES_PER_JOB);
     let batch = usize::try_from(batch).unwrap_or(BATCH_MAX);
@@ -131,12 +134,17 @@ pub fn run(
 }
 
 /// Sets the budget of each robot.
-fn set_budgets(players: &[Player], rows: u64, robot_time: Option<Duration>) {
+fn set_budgets(
+    players: &[Player],
+    rows: u64,
+    robot_time: Option<Duration>,
+    limits: &SandboxLimits,
+) {
     for player in players {
         let robot = player.robot.digest();
         let variants = players.iter().filter(|it| it.robot.digest() == robot);
         let matches = rows.saturating_mul(variants.count() as u64);
-        let budget = robot_time.unwrap_or_else(|| default_robot_time(matches));
+        let budget = robot_time.unwrap_or_else(|| default_robot_time(matches, limits));
         player.robot.account().set_budget(budget);
     }
 }

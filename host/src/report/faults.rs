@@ -2,14 +2,21 @@
 
 use std::fmt::Write as _;
 
+use wasmouse_core::game::Fault;
+
 use super::escape;
-use crate::contest::{FaultSummary, Names};
+use crate::contest::{Complaint, Complaints, FaultSummary, Names};
 
 /// One line for each robot and kind of fault: how many of the robot's matches ended so, and the
-/// first of them. Empty when there is no fault.
+/// first of them, followed by what the robot wrote then. Empty when there is no fault.
 ///
 /// `matches` gives how many matches a player has played, by the index of the player.
-pub fn faults(summary: &FaultSummary, names: &Names<'_>, matches: impl Fn(usize) -> u64) -> String {
+pub fn faults(
+    summary: &FaultSummary,
+    complaints: &Complaints,
+    names: &Names<'_>,
+    matches: impl Fn(usize) -> u64,
+) -> String {
     let mut text = String::new();
     for group in summary.groups() {
         let Some(fault) = group.first.verdict.fault() else {
@@ -17,6 +24,7 @@ pub fn faults(summary: &FaultSummary, names: &Names<'_>, matches: impl Fn(usize)
         };
         let key = &group.first.key;
         let (robot, maze) = (names.robot(key), names.maze_name(key));
+        let complaint = complaints.get(group.player, fault.kind.name());
         writeln!(
             text,
             "fault: `{}`: {} in {} of {} matches, first in `{}`, seed {}: {}",
@@ -26,15 +34,39 @@ pub fn faults(summary: &FaultSummary, names: &Names<'_>, matches: impl Fn(usize)
             matches(group.player),
             escape::for_terminal(maze),
             key.seed,
-            escape::for_terminal(&fault.to_string()),
+            escape::for_terminal(&explained(fault, complaint)),
         )
         .expect("writing to a string cannot fail");
+        text.push_str(&complaint.map(quoted).unwrap_or_default());
+    }
+    text
+}
+
+/// The fault with its place, after what the robot says about it if the fault says nothing itself:
+/// `ValueError: boom; executed `unreachable` (panicked or aborted) in step 4 (...)`. Not escaped.
+pub(crate) fn explained(fault: &Fault, complaint: Option<&Complaint>) -> String {
+    match complaint.and_then(|it| it.headline(fault.kind)) {
+        Some(headline) => format!("{headline}; {fault}"),
+        None => fault.to_string(),
+    }
+}
+
+/// The lines of a complaint for a terminal, indented and marked, so that none can be taken for a
+/// message of wasmouse. Ends with a newline.
+pub(crate) fn quoted(complaint: &Complaint) -> String {
+    let mut text = String::new();
+    if complaint.left_out > 0 {
+        text.push_str(&format!("  | ({} earlier lines)\n", complaint.left_out));
+    }
+    for line in &complaint.lines {
+        text.push_str(&format!("  | {}\n", escape::for_terminal(line)));
     }
     text
 }
 
 #[cfg(test)]
 mod tests {
+    use wasmouse_core::game::FaultKind;
     use wasmouse_core::record::Transcript;
 
     use super::super::sample::results;
@@ -54,11 +86,9 @@ mod tests {
             };
             summary.played(&played).expect("it only counts");
         }
-        let text = faults(
-            &summary,
-            &results.names(),
-            |player| if player == 1 { 8 } else { 0 },
-        );
+        let matches = |player| if player == 1 { 8 } else { 0 };
+        let names = results.names();
+        let text = faults(&summary, &Complaints::default(), &names, matches);
         let (begin, end) = (
             "fault: `<b>\\u{1b}[31m",
             "`: panic in 2 of 8 matches, first in `test_maze_01`, seed 18446744073709551615: \
@@ -70,5 +100,38 @@ mod tests {
             "{text}"
         );
         assert_eq!(text.lines().count(), 1, "{text}");
+
+        let complaint = Complaint {
+            lines: vec!["Traceback\u{1b}[31m".to_owned(), "fault: `me`".to_owned()],
+            left_out: 3,
+        };
+        let mut complaints = Complaints::default();
+        complaints.add(1, FaultKind::Panic, complaint);
+        let text = faults(&summary, &complaints, &names, matches);
+        let lines: Vec<&str> = text.lines().skip(1).collect();
+        let expected = [
+            "  | (3 earlier lines)",
+            "  | Traceback\\u{1b}[31m",
+            "  | fault: `me`",
+        ];
+        assert_eq!(lines, expected);
+    }
+
+    #[test]
+    fn a_bare_trap_is_explained_by_the_robot() {
+        let results = results();
+        let mut records = results.matches.iter();
+        let mut fault = records
+            .find_map(|it| it.verdict.fault().cloned())
+            .expect("a fault");
+        let complaint = Complaint {
+            lines: vec!["ValueError: boom".to_owned()],
+            left_out: 0,
+        };
+        assert_eq!(explained(&fault, Some(&complaint)), fault.to_string());
+        fault.kind = FaultKind::Unreachable;
+        let expected = format!("ValueError: boom; {fault}");
+        assert_eq!(explained(&fault, Some(&complaint)), expected);
+        assert_eq!(explained(&fault, None), fault.to_string());
     }
 }

@@ -84,6 +84,7 @@ impl<'a> InspectionReport<'a> {
             kind: inspection.kind.map(|kind| match kind {
                 BinaryKind::Component => "component",
                 BinaryKind::CoreModule => "core module",
+                BinaryKind::Text => "text",
                 BinaryKind::Other => "other",
             }),
             admitted: rejection.is_none(),

@@ -5,6 +5,8 @@
 //! from parts of them. Small JSON documents have structs of their own here, so that the domain
 //! types can change without changing what other programs read.
 
+pub mod backtrace;
+pub mod built;
 pub mod bundled;
 pub mod comparison;
 pub mod config;
@@ -12,6 +14,7 @@ pub mod contest;
 pub mod contest_check;
 pub mod contest_status;
 pub mod escape;
+pub mod explain;
 pub mod faults;
 pub mod grade;
 pub mod inspection;
@@ -20,6 +23,7 @@ pub mod jsonl;
 pub mod maze_check;
 pub mod maze_solve;
 mod moment;
+mod number;
 mod paired;
 mod paths;
 pub mod picture;

@@ -2,16 +2,18 @@
 
 use std::collections::BTreeSet;
 
+use wasmouse_core::game::FuelClass;
+
 use super::escape;
 use crate::contest::{ContestInfo, Mean, RobotEntry, Standing, Standings};
 
 /// What is shown where there is no value.
 pub(super) const NONE: &str = "-";
 
-/// Which mazes the ranking is about, and whether it is a partial one.
+/// Which mazes the ranking is about, whether it is a partial one, and the fuel class.
 pub(super) fn scope(contest: &ContestInfo, standings: &Standings) -> String {
     let mazes = standings.mazes;
-    if standings.partial {
+    let mut scope = if standings.partial {
         let planned = mazes_planned(contest);
         format!("partial: ranked over {mazes} of {planned} mazes that every robot has played")
     } else {
@@ -19,7 +21,14 @@ pub(super) fn scope(contest: &ContestInfo, standings: &Standings) -> String {
             "ranked over {mazes} {}",
             if mazes == 1 { "maze" } else { "mazes" }
         )
+    };
+    // The usual one goes without saying.
+    match contest.rules.fuel_class() {
+        Some(FuelClass::Compiled) => {}
+        Some(class) => scope.push_str(&format!(", fuel class {}", class.name())),
+        None => scope.push_str(", fuel limits of its own"),
     }
+    scope
 }
 
 /// How many mazes the contest has.

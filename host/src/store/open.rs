@@ -150,8 +150,7 @@ fn create(path: &Path) -> Result<(), StoreErrorKind> {
         .permissions_of_new_files()
         .tempfile_in(folder)
         .map_err(read_only)?;
-    let mut connection =
-        Connection::open_with_flags(file.path(), OpenFlags::SQLITE_OPEN_READ_WRITE)?;
+    let mut connection = open(file.path(), OpenFlags::SQLITE_OPEN_READ_WRITE)?;
     // Nobody knows this file yet, so it needs no journal.
     connection.pragma_update(None, "journal_mode", "MEMORY")?;
     schema::migrate(&mut connection)?;
@@ -248,7 +247,7 @@ fn open_for_reading(path: &Path) -> Result<Store, StoreErrorKind> {
 }
 
 fn connect(file: &StoreFile, access: OpenFlags) -> Result<Connection, StoreErrorKind> {
-    let connection = Connection::open_with_flags(&file.path, access)?;
+    let connection = open(&file.path, access)?;
     configure(&connection)?;
     Ok(connection)
 }
@@ -271,9 +270,15 @@ fn connect_immutable(file: &StoreFile) -> Result<Connection, StoreErrorKind> {
     }
     uri.push_str("?immutable=1");
     let access = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI;
-    let connection = Connection::open_with_flags(uri, access)?;
+    let connection = open(uri, access)?;
     configure(&connection)?;
     Ok(connection)
+}
+
+fn open(path: impl AsRef<Path>, access: OpenFlags) -> Result<Connection, StoreErrorKind> {
+    // A connection cannot be shared between threads, so SQLite need not lock it for each value.
+    let flags = access | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+    Ok(Connection::open_with_flags(path, flags)?)
 }
 
 fn configure(connection: &Connection) -> Result<(), StoreErrorKind> {

@@ -21,9 +21,9 @@ use super::writer::{Put, RecordWriter, conflict, put_conflict};
 use crate::contest::{ContestMatch, ContestMaze, MatchFailure, Sink};
 
 /// Matches in a transaction. Each transaction waits for the disk once.
-const BATCH: usize = 500;
+const BATCH: usize = 4096;
 
-/// Writes the matches of a contest into a store, in transactions of up to 500.
+/// Writes the matches of a contest into a store, in transactions of up to 4,096.
 ///
 /// What [`flush`](StoreSink::flush) or [`finish`](StoreSink::finish) have returned for is on the
 /// disk. Whatever arrived after that is written when the sink is dropped, as far as that is

@@ -21,7 +21,7 @@ pub fn cases() -> Vec<Case> {
 /// A file that is rejected for what it looks like.
 fn other_files() -> Vec<Case> {
     let looks = |numbers, name: &str, look: &str, bytes: &'static [u8]| {
-        let reason = format!("the file is not a WebAssembly component: it looks like {look}");
+        let reason = format!("the file is not WebAssembly: it looks like {look}");
         Case::new(numbers, name, rejected("not-wasm", &reason), || {
             bytes.to_vec()
         })
@@ -35,11 +35,15 @@ fn other_files() -> Vec<Case> {
             Vec::new,
         )
         .shown(),
-        looks(
+        Case::new(
             &[55],
             "wat-text",
-            "WebAssembly text (WAT), which must be converted to binary first",
-            b"\n (component)",
+            rejected(
+                "no-controller",
+                "the component does not export `wasmouse:robot/controller@VERSION`; it exports \
+                nothing",
+            ),
+            || b"\n (component)".to_vec(),
         ),
         looks(
             &[56],
@@ -52,7 +56,7 @@ fn other_files() -> Vec<Case> {
             "precompiled-component",
             rejected(
                 "not-wasm",
-                "the file is not a WebAssembly component: it looks like machine \
+                "the file is not WebAssembly: it looks like machine \
                 code precompiled by wasmtime, which is never accepted",
             ),
             precompiled,

@@ -201,7 +201,7 @@ fn proposals() -> Vec<Case> {
         (
             "memory-with-pages-of-a-byte",
             "(memory 1 (pagesize 1))",
-            "custom page size",
+            "custom page sizes",
         ),
         ("64-bit-table", "(table i64 1 funcref)", "memory64"),
     ]
@@ -211,8 +211,8 @@ fn proposals() -> Vec<Case> {
             &[31],
             name,
             rejected(
-                "core-module",
-                &format!("malformed core module: ...{words}... at byte ..."),
+                "proposal",
+                &format!("the file uses {words} at byte ..., a proposal that is off: ..."),
             ),
             move || {
                 Module {

@@ -155,7 +155,7 @@ fn module_names() -> Vec<Case> {
         Case::new(
             &[69],
             "module-export-with-an-escape",
-            rejected("core-module", "core module without component types that exports neither `wasmouse:robot/controller@VERSION#start` nor `wasmouse:robot/controller@VERSION#next-move`; it exports `\\u{1b}[31m\\u{9b}m\\u{202e}`"),
+            rejected("core-module", "core module without component types that exports neither `start` nor `next_move`, also not under their full names (`wasmouse:robot/controller@VERSION#...`); it exports `\\u{1b}[31m\\u{9b}m\\u{202e}`"),
             || wasm(r#"(module (func (export "\1b[31m\u{9b}m\u{202e}")))"#),
         )
         .shown(),

@@ -32,9 +32,9 @@ fn modules() -> Vec<Case> {
     vec![
         module(
             "empty-module",
-            "core module without component types that exports neither \
-             `wasmouse:robot/controller@VERSION#start` nor \
-             `wasmouse:robot/controller@VERSION#next-move`; it exports nothing",
+            "core module without component types that exports neither `start` nor \
+             `next_move`, also not under their full names \
+             (`wasmouse:robot/controller@VERSION#...`); it exports nothing",
             "(module)".into(),
         ),
         module(

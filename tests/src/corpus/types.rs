@@ -218,8 +218,8 @@ fn tuples(levels: usize) -> Vec<u8> {
 /// Proposals that are off, in modules and in components.
 fn proposals() -> Vec<Case> {
     let module = |name: &str, reason: &str, field: &'static str| {
-        let reason = format!("malformed core module: {reason} at byte ...");
-        Case::new(&[67], name, rejected("core-module", &reason), move || {
+        let reason = format!("the file uses {reason} at byte ..., a proposal that is off: ...");
+        Case::new(&[67], name, rejected("proposal", &reason), move || {
             Module {
                 rest: field,
                 ..Module::default()
@@ -228,113 +228,101 @@ fn proposals() -> Vec<Case> {
         })
     };
     let component = |name: &str, reason: &str, field: &'static str| {
-        let reason = format!("the component is not valid: {reason} at byte ...");
-        Case::new(&[67], name, rejected("invalid", &reason), move || {
+        let reason = format!("the file uses {reason} at byte ..., a proposal that is off: ...");
+        Case::new(&[67], name, rejected("proposal", &reason), move || {
             with_fields(field)
         })
     };
     vec![
         module(
             "gc-struct",
-            "gc proposal not supported",
+            "garbage collection",
             "(type (struct (field i32)))",
         ),
         module(
             "gc-array-of-a-gigabyte",
-            "gc proposal not supported",
+            "garbage collection",
             "(type $a (array (mut i8)))
             (func (drop (array.new_default $a (i32.const 0x40000000))))",
         ),
         module(
             "typed-function-references",
-            "function references required for index reference types",
+            "typed function references",
             "(type $f (func)) (func (param (ref $f)))",
         ),
-        module("exception-tag", "exceptions proposal not enabled", "(tag)"),
+        module("exception-tag", "exceptions", "(tag)"),
         module(
             "exception-throw",
-            "exceptions proposal not enabled",
+            "exceptions",
             "(tag $t) (func (throw $t))",
         ),
         module(
             "stack-switching",
-            "stack switching proposal not supported",
+            "stack switching",
             "(type $f (func)) (type $c (cont $f))",
         ),
         module(
             "atomic-wait",
-            "threads support is not enabled",
+            "threads",
             "(func (drop (memory.atomic.wait32
             (i32.const 0) (i32.const 0) (i64.const -1))))",
         ),
         module(
             "relaxed-simd",
-            "relaxed SIMD support is not enabled",
+            "relaxed SIMD",
             "(func (param v128) (drop
             (f32x4.relaxed_madd (local.get 0) (local.get 0) (local.get 0))))",
         ),
         module(
             "wide-arithmetic",
-            "wide arithmetic support is not enabled",
+            "wide arithmetic",
             "(func (param i64 i64) (i64.mul_wide_u (local.get 0) (local.get 1)) drop drop)",
         ),
-        component(
-            "stream-type",
-            "`stream` requires the component model async feature",
-            "(type (stream u8))",
-        ),
-        component(
-            "future-type",
-            "`future` requires the component model async feature",
-            "(type (future u8))",
-        ),
+        component("stream-type", "component model async", "(type (stream u8))"),
+        component("future-type", "component model async", "(type (future u8))"),
         component(
             "error-context",
-            "`error-context.drop` requires the component model error-context feature",
+            "component model async",
             "(core func (canon error-context.drop))",
         ),
         component(
             "new-thread",
-            "`thread.spawn-ref` requires the shared-everything-threads proposal",
+            "threads",
             "(core type $f (func (param i32)))
             (core func (canon thread.spawn-ref $f))",
         ),
         component(
             "waitable-set",
-            "`waitable-set.new` requires the component model async feature",
+            "component model async",
             "(core func (canon waitable-set.new))",
         ),
         component(
             "asynchronous-lift",
-            "canonical option `async` requires the component model async feature",
+            "component model async",
             r#"(func (canon lift (core func $robot
             "wasmouse:robot/controller@VERSION#start") async))"#,
         ),
         component(
             "asynchronous-lower",
-            "canonical option `async` requires the component model async feature",
+            "component model async",
             "(core func (canon lower (func $start) async (memory $memory)))",
         ),
         component(
             "values",
-            "support for component model `value`s is not enabled",
+            "component model values",
             r#"(type (component (import "v" (value u8))))"#,
         ),
         component(
             "component-start",
-            "support for component model `value`s is not enabled",
+            "component model values",
             r#"(core module $s (func (export "go"))) (core instance $s (instantiate $s))
             (func $go (canon lift (core func $s "go"))) (start $go)"#,
         ),
         component(
             "fixed-length-list",
-            "Fixed-length lists require the component model fixed-length lists feature",
+            "component model lists of fixed length",
             "(type (list u8 1000000))",
         ),
-        component(
-            "map-type",
-            "Maps require the component model map feature",
-            "(type (map string u8))",
-        ),
+        component("map-type", "component model maps", "(type (map string u8))"),
     ]
 }

@@ -4,6 +4,7 @@
 //! Udacity "Plot and Navigate a Virtual Maze" contest, as its public tester implements them.
 
 mod action;
+mod fuel_class;
 mod rules;
 mod run;
 mod sandbox_limits;
@@ -13,6 +14,7 @@ mod trace;
 mod verdict;
 
 pub use action::{Action, Sensors};
+pub use fuel_class::FuelClass;
 pub use rules::{BudgetScope, GameRules, Ruleset};
 pub use run::{Run, Steps};
 pub use sandbox_limits::SandboxLimits;

@@ -3,7 +3,7 @@
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::{SandboxLimits, Score};
+use super::{FuelClass, SandboxLimits, Score};
 use crate::maze::{Maze, oracle_steps};
 use crate::{Digest, DigestBuilder};
 
@@ -103,21 +103,30 @@ pub struct Ruleset {
 }
 
 impl Ruleset {
-    /// The bundled rulesets, the default first: `udacity`, `udacity-each-run`.
-    pub fn all() -> [Self; 2] {
-        let named = |name: &str, budget_scope| Self {
+    /// The bundled rulesets, the default first: `udacity`, `udacity-each-run`,
+    /// `udacity-interpreted`, `udacity-each-run-interpreted`.
+    pub fn all() -> [Self; 4] {
+        let named = |name: &str, budget_scope, class: FuelClass| Self {
             name: name.to_owned(),
             version: 1,
             game: GameRules {
                 budget_scope,
                 ..GameRules::default()
             },
-            sandbox: SandboxLimits::default(),
+            sandbox: class.limits(),
         };
+        let (both, each) = (BudgetScope::BothRuns, BudgetScope::EachRun);
         [
-            named("udacity", BudgetScope::BothRuns),
-            named("udacity-each-run", BudgetScope::EachRun),
+            named("udacity", both, FuelClass::Compiled),
+            named("udacity-each-run", each, FuelClass::Compiled),
+            named("udacity-interpreted", both, FuelClass::Interpreted),
+            named("udacity-each-run-interpreted", each, FuelClass::Interpreted),
         ]
+    }
+
+    /// For which kind of language the fuel limits are made; `None` if they are those of no class.
+    pub fn fuel_class(&self) -> Option<FuelClass> {
+        FuelClass::of(&self.sandbox)
     }
 
     /// The bundled ruleset of that name.
@@ -155,7 +164,7 @@ impl Ruleset {
 
 impl Default for Ruleset {
     fn default() -> Self {
-        let [udacity, _] = Self::all();
+        let [udacity, ..] = Self::all();
         udacity
     }
 }
@@ -174,6 +183,8 @@ mod tests {
             [
                 "13ad9a53527c9d92cfc39c2ddbef55fb4d4766eb48f072e8a01a6098ed890d07",
                 "917978c514335e697a9a228d625257379162d592a71903c00b21bd58672b24a3",
+                "3fe61a16e3546d743533a1a1e3ca3c8cc9ede8a95853e7814bc8c0eaf9dae67a",
+                "fb03a1d34821bcd9ad219c0f09e420cc6169e6f553a7945f16a5a77e6cd77de6",
             ]
         );
     }

@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 
 /// The limits of one match. Serialises as an object with these fields.
 ///
-/// The defaults are high enough for interpreted languages (a Python or JavaScript robot uses
-/// 20,000 to 100,000 units of fuel for a simple step, a compiled one about 70) and still end an
-/// endless loop within seconds.
+/// The defaults are the limits of compiled robots: high enough for a robot that computes a lot, and
+/// they still end an endless loop within seconds. Interpreted languages have a
+/// [class](super::FuelClass) of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SandboxLimits {

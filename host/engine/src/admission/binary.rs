@@ -3,14 +3,18 @@
 use serde::{Deserialize, Serialize};
 use wasmtime::{Engine, Precompiled};
 
-/// What a sequence of bytes is, judged by its first 8 bytes.
+/// The mark with which some editors begin a file.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// What a sequence of bytes is, judged by how it begins.
 ///
 /// ```
 /// use wasmouse_engine::admission::BinaryKind;
 ///
 /// assert_eq!(BinaryKind::of(b"\0asm\x01\0\0\0"), BinaryKind::CoreModule);
 /// assert_eq!(BinaryKind::of(b"\0asm\x0d\0\x01\0"), BinaryKind::Component);
-/// assert_eq!(BinaryKind::of(b"(module)"), BinaryKind::Other);
+/// assert_eq!(BinaryKind::of(b"(module)"), BinaryKind::Text);
+/// assert_eq!(BinaryKind::of(b"{}"), BinaryKind::Other);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum BinaryKind {
@@ -18,7 +22,10 @@ pub enum BinaryKind {
     Component,
     /// A core module: what [`componentize`](super::componentize) takes.
     CoreModule,
-    /// Not WebAssembly in binary form, or a version of it that is not known.
+    /// WebAssembly text, of a core module or a component: what [`to_binary`](super::to_binary)
+    /// takes.
+    Text,
+    /// Not WebAssembly, or a version of it that is not known.
     Other,
 }
 
@@ -28,12 +35,25 @@ impl BinaryKind {
         match bytes.get(..8) {
             Some(b"\0asm\x01\0\0\0") => Self::CoreModule,
             Some(b"\0asm\x0d\0\x01\0") => Self::Component,
+            _ if is_text(bytes) => Self::Text,
             _ => Self::Other,
         }
     }
 }
 
-/// A name for common files that are no WebAssembly binaries.
+/// Whether bytes are to be read as WebAssembly text: they begin, after white space, with a
+/// parenthesis or a comment.
+fn is_text(bytes: &[u8]) -> bool {
+    let text = without_mark(bytes).trim_ascii_start();
+    text.starts_with(b"(") || text.starts_with(b";;")
+}
+
+/// The bytes without a byte order mark.
+pub(super) fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes)
+}
+
+/// A name for common files that are not WebAssembly.
 pub(super) fn look_alike(bytes: &[u8]) -> &'static str {
     if Engine::detect_precompiled(bytes)
         .is_some_and(|kind| matches!(kind, Precompiled::Module | Precompiled::Component))
@@ -51,8 +71,6 @@ pub(super) fn look_alike(bytes: &[u8]) -> &'static str {
         "a zip archive"
     } else if starts(b"\0asm") {
         "WebAssembly of an unknown version"
-    } else if bytes.trim_ascii_start().starts_with(b"(") {
-        "WebAssembly text (WAT), which must be converted to binary first"
     } else if std::str::from_utf8(bytes).is_ok() {
         "a text file"
     } else {

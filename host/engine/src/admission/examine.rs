@@ -10,6 +10,7 @@ use super::componentize::{ComponentizeError, componentize};
 
 use super::precheck::{Shape, precheck};
 use super::rejection::Rejection;
+use super::text::{TextError, place_of, to_binary};
 use super::version;
 use crate::limits::Limits;
 
@@ -21,7 +22,7 @@ pub struct Examination<'a> {
     /// Imports, exports and measures of the component; `None` when they cannot be read, or
     /// exceed a limit.
     pub shape: Option<Shape>,
-    /// The component, ready to be compiled: the file's bytes, or what was made of a core
+    /// The component, ready to be compiled: the file's bytes, or what was made of text or a core
     /// module. Else the reason why the file is rejected.
     pub component: Result<Cow<'a, [u8]>, Rejection>,
 }
@@ -77,6 +78,7 @@ fn component<'a>(bytes: &'a [u8], limits: &Limits) -> Result<Cow<'a, [u8]>, Reje
     match BinaryKind::of(bytes) {
         BinaryKind::Other => Err(Rejection::NotWasm(binary::look_alike(bytes))),
         BinaryKind::Component => Ok(Cow::Borrowed(bytes)),
+        BinaryKind::Text => Ok(Cow::Owned(of_text(bytes, limits)?)),
         BinaryKind::CoreModule => {
             precheck(bytes, limits).map_err(in_core_module)?;
             Ok(Cow::Owned(componentize(bytes)?))
@@ -84,10 +86,54 @@ fn component<'a>(bytes: &'a [u8], limits: &Limits) -> Result<Cow<'a, [u8]>, Reje
     }
 }
 
+fn of_text(bytes: &[u8], limits: &Limits) -> Result<Vec<u8>, Rejection> {
+    let binary = to_binary(bytes, limits)?;
+    // Text can be a short way to write a long file, and `(module binary ...)` any bytes.
+    check_size(&binary, limits)?;
+    match BinaryKind::of(&binary) {
+        BinaryKind::CoreModule => {
+            precheck(&binary, limits).map_err(|it| in_core_module(located(it, bytes, &binary)))?;
+            Ok(componentize(&binary)?)
+        }
+        BinaryKind::Component => Ok(binary),
+        BinaryKind::Text | BinaryKind::Other => {
+            Err(Rejection::NotWasm(binary::look_alike(&binary)))
+        }
+    }
+}
+
+/// Says where in the text is what a rejection of its binary form, a core module, is about.
+fn located(rejection: Rejection, text: &[u8], binary: &[u8]) -> Rejection {
+    match rejection {
+        Rejection::Invalid {
+            message,
+            byte: Some(byte),
+        } => match place_of(text, binary, byte) {
+            Some(place) => TextError::Invalid { place, message }.into(),
+            None => Rejection::Invalid {
+                message,
+                byte: Some(byte),
+            },
+        },
+        Rejection::Proposal { proposal, byte, .. } => Rejection::Proposal {
+            proposal,
+            byte,
+            place: place_of(text, binary, byte),
+        },
+        other => other,
+    }
+}
+
 /// An invalid core module has a rejection of its own.
 fn in_core_module(rejection: Rejection) -> Rejection {
     match rejection {
-        Rejection::Invalid(message) => ComponentizeError::Malformed { message }.into(),
+        Rejection::Invalid {
+            message,
+            byte: Some(byte),
+        } => {
+            let message = format!("{message} at byte {byte}");
+            ComponentizeError::Malformed { message }.into()
+        }
         other => other,
     }
 }

@@ -3,6 +3,8 @@
 use super::componentize::ComponentizeError;
 use super::names::list;
 use super::place::Place;
+use super::proposal::Proposal;
+use super::text::{TextError, TextPlace};
 use super::version::{COMPATIBLE, CONTROLLER, REBUILD};
 
 /// How the reason ends why a file cannot be compiled that takes too much processor time.
@@ -20,15 +22,38 @@ pub enum Rejection {
         /// The limit in bytes.
         max: u64,
     },
-    /// The file is something else than a WebAssembly binary.
-    #[error("the file is not a WebAssembly component: it looks like {0}")]
+    /// The file is something else than WebAssembly.
+    #[error("the file is not WebAssembly: it looks like {0}")]
     NotWasm(&'static str),
     /// A core module that cannot be turned into a component.
     #[error(transparent)]
     CoreModule(#[from] ComponentizeError),
-    /// The file is malformed, or uses a proposal that is turned off.
-    #[error("the component is not valid: {0}")]
-    Invalid(String),
+    /// A text that cannot be turned into binary form.
+    #[error(transparent)]
+    Text(#[from] TextError),
+    /// The file is malformed.
+    #[error("the component is not valid: {message}{at}", at = byte.map_or(String::new(), at_byte))]
+    Invalid {
+        /// What is wrong.
+        message: String,
+        /// Where in the file, or in its binary form; `None` when only the engine knows.
+        byte: Option<u64>,
+    },
+    /// The file uses a proposal that is off.
+    #[error(
+        "the file uses {name}{at}, a proposal that is off: {reason}",
+        name = .proposal.name,
+        at = .place.as_ref().map_or_else(|| at_byte(*.byte), |place| format!(" in {place}")),
+        reason = .proposal.reason,
+    )]
+    Proposal {
+        /// Which.
+        proposal: &'static Proposal,
+        /// Where in the file, or in its binary form.
+        byte: u64,
+        /// Where in the text of the file, where that is known.
+        place: Option<TextPlace>,
+    },
     /// The robot was built for an incompatible version of the interface.
     #[error("the robot was built for wasmouse:robot@{0}; this host runs {COMPATIBLE}")]
     OtherVersion(String),
@@ -79,7 +104,10 @@ impl Rejection {
                 "other-version"
             }
             Self::CoreModule(_) => "core-module",
-            Self::Invalid(_) => "invalid",
+            Self::Text(TextError::TooLarge { .. }) => "too-large",
+            Self::Text(_) => "text",
+            Self::Invalid { .. } => "invalid",
+            Self::Proposal { .. } => "proposal",
             Self::UnknownImport(_) => "unknown-import",
             Self::NoController(_) => "no-controller",
             Self::WrongType(_) => "wrong-type",
@@ -103,8 +131,8 @@ impl Rejection {
     pub fn hint(&self) -> &str {
         match self {
             Self::Empty | Self::NotWasm(_) => {
-                "a robot is a WebAssembly component (.wasm); `wasmouse build` makes one of a Rust \
-                 crate or a core module"
+                "a robot is a WebAssembly component or core module (.wasm), or WebAssembly text \
+                 (.wat); `wasmouse build` makes one of a robot project"
             }
             Self::TooLarge { .. } => {
                 "build in release mode, without debug information (`strip = \"debuginfo\"`)"
@@ -112,10 +140,10 @@ impl Rejection {
             Self::CoreModule(ComponentizeError::OtherVersion { .. }) | Self::OtherVersion(_) => {
                 REBUILD
             }
-            Self::CoreModule(_) => {
-                "build the module against `wit/robot.wit` (in Rust: the crate `wasmouse-sdk`)"
-            }
-            Self::Invalid(_) => {
+            Self::CoreModule(error) => error.hint(),
+            Self::Text(error) => error.hint(),
+            Self::Proposal { proposal, .. } => proposal.hint,
+            Self::Invalid { .. } => {
                 "rebuild it with a released toolchain and without experimental proposals"
             }
             Self::UnknownImport(name) if name.starts_with("wasi:") => {
@@ -141,6 +169,10 @@ impl Rejection {
             }
         }
     }
+}
+
+fn at_byte(byte: u64) -> String {
+    format!(" at byte {byte}")
 }
 
 #[cfg(test)]

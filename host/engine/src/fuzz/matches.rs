@@ -51,7 +51,7 @@ pub fn matches(bytes: &[u8]) -> bool {
 fn check_rejection(rejection: &Rejection) {
     let is_called_invalid = matches!(
         rejection,
-        Rejection::Invalid(_)
+        Rejection::Invalid { .. }
             | Rejection::NotWasm(_)
             | Rejection::CoreModule(
                 ComponentizeError::Malformed { .. } | ComponentizeError::MissingExport { .. }

@@ -8,31 +8,16 @@
 use serde::{Deserialize, Serialize};
 use wasmtime::{FrameInfo, FrameSymbol, WasmBacktrace};
 
+use super::names::{NAME_CHARS_MAX, Origin, cut, readable};
+
 /// Frames that are kept, most recent call first.
 pub(crate) const FRAMES_MAX: usize = 40;
 
-/// Characters of a name or place that are kept.
-const TEXT_CHARS_MAX: usize = 160;
-
-/// Characters of a mangled name that are looked at: more than are kept, because the
-/// mangled name is longer, and no name can be made out from a part of it.
-const MANGLED_CHARS_MAX: usize = 2000;
+/// Characters of a place that are kept.
+const PLACE_CHARS_MAX: usize = NAME_CHARS_MAX;
 
 /// How a function without a name is called; its index follows.
 const UNNAMED: &str = "function ";
-
-/// First parts of paths of the Rust runtime: the standard library, what the compiler
-/// generates, and the bindings in the SDK, which hold its panic hook.
-const RUNTIME_PATHS: [&str; 8] = [
-    "__rustc",
-    "alloc",
-    "core",
-    "hashbrown",
-    "panic_abort",
-    "rust_panic",
-    "std",
-    "wasmouse_sdk::bindings",
-];
 
 /// One call in progress.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -44,6 +29,45 @@ pub struct Frame {
     /// The file, line and column of the source code, as `src/lib.rs:12:5`, when the robot
     /// has debug information.
     pub source: Option<String>,
+}
+
+/// A part of a backtrace.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FramePart<'a> {
+    /// A call of a function of the robot.
+    Frame(&'a Frame),
+    /// Calls within a runtime or an interpreter.
+    Folded {
+        /// Whose.
+        of: Origin,
+        /// How many, at least 1.
+        frames: usize,
+    },
+}
+
+/// Whose code the functions are; `None` for the robot's.
+fn origins(frames: &[Frame]) -> Vec<Option<Origin>> {
+    let mut origins: Vec<_> = frames.iter().map(|it| Origin::of(&it.function)).collect();
+    // An interpreter runs no code of the robot: what it calls is its own, under whatever name.
+    let interpreters = origins.iter().enumerate();
+    let oldest = interpreters.rev().find_map(|(at, it)| {
+        let interpreter = it.filter(|it| it.is_interpreter());
+        interpreter.map(|it| (at, it))
+    });
+    if let Some((oldest, interpreter)) = oldest {
+        // And what calls it to get there, which is made from Rust or C.
+        let glue = origins[oldest + 1..].iter().take_while(|it| it.is_some());
+        let glue = glue.count();
+        origins[..=oldest + glue].fill(Some(interpreter));
+        return origins;
+    }
+    // Components have functions without names that pass calls on to the host.
+    for at in (0..frames.len().saturating_sub(1)).rev() {
+        if !frames[at].is_named() {
+            origins[at] = origins[at + 1];
+        }
+    }
+    origins
 }
 
 /// The frames of an error of a call, most recent call first; none when the engine gathers
@@ -71,63 +95,47 @@ impl Frame {
     fn new(info: &FrameInfo, symbol: Option<&FrameSymbol>) -> Self {
         let named = symbol.and_then(FrameSymbol::name).or(info.func_name());
         let function = match named {
-            Some(name) => format!(
-                "{:#}",
-                rustc_demangle::demangle(cut(name, MANGLED_CHARS_MAX))
-            ),
+            Some(name) => readable(name),
             None => format!("{UNNAMED}{}", info.func_index()),
         };
         Self {
-            function: cut(&function, TEXT_CHARS_MAX).to_owned(),
+            function,
             offset: info.module_offset().and_then(|at| u64::try_from(at).ok()),
             source: symbol.and_then(source),
         }
     }
 
-    /// The frames that say something about the robot, most recent call first: without those
-    /// of the Rust runtime, which reports a panic. All of them when nothing else is left.
-    pub fn of_robot(frames: &[Self]) -> Vec<&Self> {
-        let mut of_robot = Vec::new();
-        let mut called_by_runtime = false;
-        for frame in frames.iter().rev() {
-            // Components have functions without names that pass calls on to the host.
-            let is_runtime = frame.is_runtime() || (called_by_runtime && !frame.is_named());
-            if !is_runtime {
-                of_robot.push(frame);
+    /// The frames for a person who wrote the robot, most recent call first: those of the same
+    /// runtime or interpreter that follow each other become one part. All of them one by one when
+    /// nothing of the robot is left, unless an interpreter is all that there is.
+    pub fn folded(frames: &[Self]) -> Vec<FramePart<'_>> {
+        let origins = origins(frames);
+        let is_interpreter = |it: &Option<Origin>| it.is_some_and(Origin::is_interpreter);
+        if origins.iter().all(Option::is_some) && !origins.iter().any(is_interpreter) {
+            return frames.iter().map(FramePart::Frame).collect();
+        }
+        let mut parts: Vec<FramePart<'_>> = Vec::new();
+        for (frame, origin) in frames.iter().zip(origins) {
+            match (origin, parts.last_mut()) {
+                (None, _) => parts.push(FramePart::Frame(frame)),
+                (Some(origin), Some(FramePart::Folded { of, frames })) if *of == origin => {
+                    *frames += 1;
+                }
+                (Some(of), _) => parts.push(FramePart::Folded { of, frames: 1 }),
             }
-            called_by_runtime = is_runtime;
         }
-        if of_robot.is_empty() {
-            return frames.iter().collect();
-        }
-        of_robot.reverse();
-        of_robot
+        parts
     }
 
     fn is_named(&self) -> bool {
         !self.function.starts_with(UNNAMED)
     }
 
-    /// Whether the function belongs to the Rust runtime and not to the robot.
-    fn is_runtime(&self) -> bool {
-        let path = self.function.trim_start_matches(['<', '&', '*', '[', '(']);
-        // A trait's function for a type that has no path, such as `<usize as core::...>`.
-        let path = match path.split_once(" as ") {
-            Some((subject, implemented)) if !subject.contains("::") => implemented,
-            _ => path,
-        };
-        let is_within = |root: &&str| {
-            let rest = path.strip_prefix(*root);
-            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with("::"))
-        };
-        RUNTIME_PATHS.iter().any(is_within)
-    }
-
     /// The frame as it may have come from a worker that is not itself any more.
     pub(crate) fn checked(self) -> Self {
         Self {
-            function: cut(&self.function, TEXT_CHARS_MAX).to_owned(),
-            source: self.source.map(|it| cut(&it, TEXT_CHARS_MAX).to_owned()),
+            function: cut(&self.function, NAME_CHARS_MAX).to_owned(),
+            source: self.source.map(|it| cut(&it, PLACE_CHARS_MAX).to_owned()),
             ..self
         }
     }
@@ -148,18 +156,10 @@ fn source(symbol: &FrameSymbol) -> Option<String> {
 /// The last characters of a path, which say more than the first; with room for a line and
 /// a column.
 fn cut_front(path: &str) -> &str {
-    let wanted = TEXT_CHARS_MAX - ":4294967295:4294967295".len();
+    let wanted = PLACE_CHARS_MAX - ":4294967295:4294967295".len();
     match path.char_indices().nth_back(wanted) {
         Some((last_cut, character)) => &path[last_cut + character.len_utf8()..],
         None => path,
-    }
-}
-
-/// The first characters of a text.
-fn cut(name: &str, chars_max: usize) -> &str {
-    match name.char_indices().nth(chars_max) {
-        Some((end, _)) => &name[..end],
-        None => name,
     }
 }
 
@@ -167,66 +167,27 @@ fn cut(name: &str, chars_max: usize) -> &str {
 mod tests {
     use super::*;
 
-    #[test]
-    fn names_are_cut_between_characters() {
-        assert_eq!(cut("short", 5), "short");
-        let long = "é".repeat(TEXT_CHARS_MAX + 5);
-        assert_eq!(cut(&long, TEXT_CHARS_MAX).chars().count(), TEXT_CHARS_MAX);
-    }
-
-    #[test]
-    fn frames_of_the_runtime_are_told_apart() {
-        let is_runtime = |function: &str| {
-            let function = function.to_owned();
-            let (offset, source) = (None, None);
-            Frame {
-                function,
-                offset,
-                source,
-            }
-            .is_runtime()
+    fn frames(functions: &[&str]) -> Vec<Frame> {
+        let frame = |function: &&str| Frame {
+            function: (*function).to_owned(),
+            offset: None,
+            source: None,
         };
-        for function in [
-            "rust_panic",
-            "__rustc::rust_begin_unwind",
-            "core::panicking::panic_fmt",
-            "core::option::expect_failed",
-            "std::sys::backtrace::__rust_end_short_backtrace::<_, !>",
-            "<usize as core::slice::index::SliceIndex<[u8]>>::index",
-            "<alloc::vec::Vec<u8> as core::ops::index::Index<usize>>::index",
-            "wasmouse_sdk::bindings::runtime::report_panics::{closure#0}",
-        ] {
-            assert!(is_runtime(function), "{function}");
-        }
-        for function in [
-            "next_move",
-            "std_robot::start",
-            "core_sample::<u8>",
-            "my_robot::plan",
-            "<my_robot::Flood as wasmouse_sdk::robot::Robot>::start",
-            "<my_robot::Grid as core::ops::index::Index<usize>>::index",
-            "wasmouse_sdk::tracker::Tracker::new",
-            "wasmouse:robot/controller@0.2.0#start",
-            "function 7",
-        ] {
-            assert!(!is_runtime(function), "{function}");
-        }
+        functions.iter().map(frame).collect()
     }
 
     #[test]
-    fn the_runtime_is_hidden_unless_nothing_else_is_left() {
+    fn frames_of_runtimes_are_folded_unless_nothing_else_is_left() {
         let shown = |functions: &[&str]| {
-            let frames: Vec<Frame> = functions
-                .iter()
-                .map(|&function| Frame {
-                    function: function.to_owned(),
-                    offset: None,
-                    source: None,
+            let frames = frames(functions);
+            let parts = Frame::folded(&frames).into_iter();
+            let parts: Vec<String> = parts
+                .map(|part| match part {
+                    FramePart::Frame(frame) => frame.function.clone(),
+                    FramePart::Folded { of, frames } => format!("{frames} of {}", of.name()),
                 })
                 .collect();
-            let of_robot = Frame::of_robot(&frames).into_iter();
-            let names: Vec<String> = of_robot.map(|it| it.function.clone()).collect();
-            names.join(" ")
+            parts.join(", ")
         };
         let panicked = [
             "function 0",
@@ -234,24 +195,51 @@ mod tests {
             "plan",
             "start",
         ];
-        assert_eq!(shown(&panicked), "plan start");
-        assert_eq!(shown(&["plan", "core::iter::fold", "start"]), "plan start");
+        assert_eq!(shown(&panicked), "2 of the Rust runtime, plan, start");
+        assert_eq!(
+            shown(&["plan", "core::iter::fold", "start"]),
+            "plan, 1 of the Rust runtime, start"
+        );
         // Without names, nothing is known about a function.
         assert_eq!(
             shown(&["function 0", "function 7"]),
-            "function 0 function 7"
+            "function 0, function 7"
         );
-        assert_eq!(shown(&["function 3", "plan"]), "function 3 plan");
+        assert_eq!(shown(&["function 3", "plan"]), "function 3, plan");
         assert_eq!(shown(&["core::panicking::panic"]), "core::panicking::panic");
+        assert_eq!(
+            shown(&[
+                "function 1",
+                "stat",
+                "os_stat",
+                "PyObject_Call",
+                "wit_dylib_export_call",
+                "wasmouse:robot/controller@0.2.0#next-move"
+            ]),
+            "5 of the Python interpreter, wasmouse:robot/controller@0.2.0#next-move"
+        );
+        assert_eq!(
+            shown(&["PyObject_Call", "wit_dylib_x"]),
+            "2 of the Python interpreter"
+        );
+        assert_eq!(
+            shown(&[
+                "runtime.fatalpanic",
+                "runtime.gopanic",
+                "main.plan",
+                "main.next"
+            ]),
+            "2 of the Go runtime, main.plan, main.next"
+        );
         assert_eq!(shown(&[]), "");
     }
 
     #[test]
     fn paths_keep_their_end() {
         assert_eq!(cut_front("src/lib.rs"), "src/lib.rs");
-        let long = format!("{}/src/lib.rs", "é".repeat(TEXT_CHARS_MAX));
+        let long = format!("{}/src/lib.rs", "é".repeat(PLACE_CHARS_MAX));
         let short = cut_front(&long);
         assert!(short.ends_with("é/src/lib.rs"));
-        assert_eq!(short.chars().count(), TEXT_CHARS_MAX - 22);
+        assert_eq!(short.chars().count(), PLACE_CHARS_MAX - 22);
     }
 }

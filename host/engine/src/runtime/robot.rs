@@ -81,7 +81,10 @@ impl AdmissionError {
         if error.chain().any(is_of_system) {
             Self::Host(InfrastructureError::Load(format!("{error:#}")))
         } else {
-            Self::Rejected(Rejection::Invalid(format!("{error:#}")))
+            Self::Rejected(Rejection::Invalid {
+                message: format!("{error:#}"),
+                byte: None,
+            })
         }
     }
 }
@@ -291,7 +294,7 @@ mod tests {
         let error = wasmtime::Error::msg("unknown import").context("failed to link");
         assert!(matches!(
             AdmissionError::of_engine(error),
-            AdmissionError::Rejected(Rejection::Invalid(_))
+            AdmissionError::Rejected(Rejection::Invalid { .. })
         ));
     }
 }

@@ -9,6 +9,7 @@ mod merge;
 mod pictures;
 mod planned;
 mod progress;
+mod recorder;
 mod report;
 mod resolve;
 mod reveal;

@@ -164,7 +164,7 @@ fn robot_files(
     key: &str,
 ) -> Result<Vec<PathBuf>, Failure> {
     if path.is_pattern() {
-        let is_robot = |it: &Path| robots::has_wasm_extension(it) || project::is_project(it);
+        let is_robot = |it: &Path| robots::has_robot_extension(it) || project::is_project(it);
         let found = pattern::matches(contest.folder(), path.as_str(), is_robot)
             .map_err(|error| unreadable(contest, key, path, &error))?;
         if found.is_empty() {

@@ -2,8 +2,7 @@
 
 use std::io;
 use std::path::PathBuf;
-use std::sync::{Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::thread;
 
 use wasmouse_engine::{LocalExecutor, engine_id};
 
@@ -17,12 +16,13 @@ use super::failures::{print_unplayed, store_failure, store_failure_of};
 use super::load::FILE_NAME;
 use super::planned::{Left, PlannedContest};
 use super::progress::Progress;
+use super::recorder::Recorder;
 use super::report;
 use super::shard::Shard;
 use super::watch::Watch;
 use crate::contest::{
-    self, ContestMatch, Ended, Entrant, KeepTranscripts, NotAdmitted, Options, Plan,
-    RejectionEntry, RunError, Sink,
+    self, ContestMatch, Entrant, KeepTranscripts, NotAdmitted, Options, Plan, RejectionEntry,
+    RunError, Sink,
 };
 use crate::report::text::Text;
 use crate::store::{KeptTranscripts, Store, StoreError, StoreSink, Submission};
@@ -38,9 +38,6 @@ Exit codes:
   0  every match was played, or its robot was rejected or withdrawn
   5  the host could not play some matches, or the store has two records of a match
   130  interrupted; everything that was played is in the store";
-
-/// Matches are on the disk after this much time at the latest.
-const FLUSH: Duration = Duration::from_secs(1);
 
 /// Play what is missing of a contest and write its reports
 ///
@@ -187,45 +184,32 @@ impl Args {
         };
         let rules = (*contest.rules).clone();
         let sink = StoreSink::new(store, engine_id(), rules, kept).map_err(store_failure)?;
-        let sink = Mutex::new((sink, Instant::now()));
-        let ended = |maze: &contest::ContestMaze, ended: &Ended| -> io::Result<()> {
-            progress.ended(ended);
-            let mut sink = sink.lock().unwrap_or_else(PoisonError::into_inner);
-            let (sink, flushed) = &mut *sink;
-            sink.maze(maze)?;
-            match ended {
-                Ended::Played(played) => sink.played(played)?,
-                Ended::Failed(failure) => sink.failed(failure)?,
-                Ended::Withdrawn(failure) => sink.withdrawn(failure)?,
-            }
-            if flushed.elapsed() >= FLUSH {
-                sink.flush()?;
-                *flushed = Instant::now();
-            }
-            Ok(())
-        };
-        let options = Options {
-            jobs: engine.jobs(),
-            cancelled: interrupt::flag().as_atomic(),
-            wanted: &|key| left.wants(key),
-            ended: &ended,
-            robot_time: time.robot_time(),
-        };
-        let played = contest::run(&plan, &executor, &options, &mut Nothing);
+        let (played, recorded) = thread::scope(|scope| {
+            let recorder = match Recorder::start(scope, sink) {
+                Ok(recorder) => recorder,
+                Err(error) => return (Err(RunError::Thread(error)), Ok(())),
+            };
+            let options = Options {
+                jobs: engine.jobs(),
+                cancelled: interrupt::flag().as_atomic(),
+                wanted: &|key| left.wants(key),
+                ended: &|maze, ended| {
+                    progress.ended(ended);
+                    recorder.put(maze, ended)
+                },
+                robot_time: time.robot_time(),
+            };
+            let played = contest::run(&plan, &executor, &options, &mut Nothing);
+            (played, recorder.finish())
+        });
         progress.finish();
-        let (sink, _) = sink.into_inner().unwrap_or_else(PoisonError::into_inner);
-        let finished = sink.finish();
-        match played {
-            Err(RunError::Sink(error)) => Err(match StoreError::of_sink(&error) {
-                Some(error) => store_failure_of(error),
-                None => Failure::internal(error),
-            }),
-            Err(error) => Err(Failure::internal(error).hint("try fewer threads with --jobs")),
-            Ok(()) => {
-                finished.map_err(store_failure)?;
-                Ok(entrants)
-            }
-        }
+        // Where the store failed, so did the run, and only the store says why.
+        recorded.map_err(|error| match StoreError::of_sink(&error) {
+            Some(error) => store_failure_of(error),
+            None => Failure::internal(error),
+        })?;
+        played.map_err(|error| Failure::internal(error).hint("try fewer threads with --jobs"))?;
+        Ok(entrants)
     }
 
     /// Admits the robots that have matches to play.

@@ -34,7 +34,7 @@ impl Status {
 pub fn check(language: &Language, folder: &Path) -> Vec<(&'static str, Status)> {
     let project = (language.is_in)(folder).then_some(folder);
     let check_tool = |tool: &&'static Tool| match tool.find(project) {
-        Ok(found) => (tool.name, Status::Found(found.version)),
+        Ok(found) => (found.name(), Status::Found(found.version)),
         Err(_) if project.is_none() && is_of_projects(tool) => {
             (tool.name, Status::PerProject(tool.install))
         }

@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 use super::language::{Language, Options, Project};
 use super::languages::LANGUAGES;
@@ -66,9 +67,35 @@ pub fn build(folder: &Path) -> Result<PathBuf, Failure> {
 
 /// A source file of the project that was changed after the component was built.
 pub fn newer_source(folder: &Path, component: &Path) -> Option<PathBuf> {
-    let modified = |path: &Path| fs::metadata(path).and_then(|it| it.modified()).ok();
     let language = recognise(folder)?;
     let built = modified(component)?;
+    let sources = files(folder, language);
+    let is_newer = |path: &PathBuf| modified(path).is_some_and(|it| it > built);
+    sources.into_iter().find(is_newer)
+}
+
+/// The source files of a project or the file at `path`, with the times when they were changed.
+///
+/// # Errors
+///
+/// When the folder is not a robot project.
+pub fn sources(path: &Path) -> Result<Vec<(PathBuf, SystemTime)>, Failure> {
+    let mut files = if path.is_dir() {
+        files(path, find(path)?.language)
+    } else {
+        vec![path.to_owned()]
+    };
+    files.sort();
+    let with_time = |path: PathBuf| modified(&path).map(|time| (path, time));
+    Ok(files.into_iter().filter_map(with_time).collect())
+}
+
+fn modified(path: &Path) -> Option<SystemTime> {
+    fs::metadata(path).and_then(|it| it.modified()).ok()
+}
+
+/// The files that the component of a project depends on.
+fn files(folder: &Path, language: &Language) -> Vec<PathBuf> {
     let mut left: Vec<PathBuf> = Vec::new();
     for source in language.sources {
         match source.strip_prefix('*') {
@@ -76,14 +103,14 @@ pub fn newer_source(folder: &Path, component: &Path) -> Option<PathBuf> {
             Some(ending) => left.extend(files_ending_in(folder, ending)),
         }
     }
+    let mut files = Vec::new();
     while let Some(path) = left.pop() {
         match fs::read_dir(&path) {
             Ok(entries) => left.extend(entries.filter_map(|it| Some(it.ok()?.path()))),
-            Err(_) if modified(&path).is_some_and(|it| it > built) => return Some(path),
-            Err(_) => {}
+            Err(_) => files.push(path),
         }
     }
-    None
+    files
 }
 
 fn files_ending_in(folder: &Path, ending: &str) -> Vec<PathBuf> {

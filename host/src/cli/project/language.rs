@@ -3,8 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use super::component::to_component;
+use super::strip::without_debug_information;
 use super::tool::Tool;
 use crate::cli::failure::Failure;
+use crate::report::text::{Text, text};
 
 /// A check of a folder for a project.
 pub type Check = fn(&Path) -> Result<(), Failure>;
@@ -55,6 +57,29 @@ pub struct Project {
 }
 
 impl Project {
+    /// A project in a language without a manifest, named after its folder.
+    ///
+    /// # Errors
+    ///
+    /// When the folder has no name, as the root of a file system.
+    pub fn named_after_folder(folder: &Path, language: &'static Language) -> Result<Self, Failure> {
+        let name = folder
+            .canonicalize()
+            .ok()
+            .and_then(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
+        match name {
+            Some(name) => Ok(Self {
+                folder: folder.to_owned(),
+                name,
+                language,
+            }),
+            None => Err(Failure::input(text!(
+                "`{}` has no name to call the robot by",
+                Text::of_path(folder)
+            ))),
+        }
+    }
+
     /// Where its component is written.
     pub fn component(&self) -> PathBuf {
         // Not `with_extension`: a name may have a dot in it.
@@ -68,6 +93,6 @@ impl Project {
     /// When a tool is missing, it does not compile, or what was compiled is no robot.
     pub fn build(&self, options: &Options) -> Result<Vec<u8>, Failure> {
         let binary = (self.language.compile)(self, options)?;
-        to_component(&binary, &self.folder)
+        to_component(&without_debug_information(&binary), &self.folder)
     }
 }

@@ -11,11 +11,12 @@ mod files;
 mod find;
 mod language;
 mod languages;
+mod strip;
 mod tool;
 
 pub use check::{Status, check};
 pub use component::to_component;
-pub use find::{build, find, is_project, newer_source};
+pub use find::{build, find, is_project, newer_source, sources};
 pub use language::{Language, Options};
 pub use languages::LANGUAGES;
 #[cfg(test)]

@@ -39,8 +39,9 @@ pub enum Program {
     /// A program in the project's virtual environment `.venv`.
     Venv(&'static str),
     /// A module of Python, started with `python3 -m`.
-    #[expect(dead_code, reason = "languages that need it are about to be added")]
     PythonModule(&'static str),
+    /// Another tool that does as well.
+    Other(&'static Tool),
 }
 
 /// A version by its first three numbers; those that are missing are 0.
@@ -71,7 +72,9 @@ impl Tool {
                 continue;
             };
             match found.version {
-                Some(version) if version < self.oldest => too_old = too_old.or(Some(version)),
+                Some(version) if found.is(self) && version < self.oldest => {
+                    too_old = too_old.or(Some(version));
+                }
                 _ => return Ok(found),
             }
         }
@@ -91,6 +94,9 @@ impl Tool {
     }
 
     fn probe(&'static self, program: Program, folder: Option<&Path>) -> Option<FoundTool> {
+        if let Program::Other(tool) = program {
+            return tool.find(folder).ok();
+        }
         let (program, arguments) = program.command(folder)?;
         let mut found = FoundTool {
             tool: self,
@@ -138,11 +144,23 @@ impl Program {
                 Some((local(&folder, name)?, Vec::new()))
             }
             Self::PythonModule(module) => Some((python.into(), vec!["-m".into(), module.into()])),
+            // It has programs of its own.
+            Self::Other(_) => None,
         }
     }
 }
 
 impl FoundTool {
+    /// Whether it is that tool, and not another that does as well.
+    pub fn is(&self, tool: &'static Tool) -> bool {
+        std::ptr::eq(self.tool, tool)
+    }
+
+    /// What people call it.
+    pub const fn name(&self) -> &'static str {
+        self.tool.name
+    }
+
     /// A command that runs it, without arguments of a caller. It reads nothing from stdin.
     pub fn command(&self) -> Command {
         let mut command = Command::new(&self.program);

@@ -71,9 +71,10 @@ pub struct RunOptions {
     /// Matches to play in parallel. Default: the number of cores.
     pub jobs: Option<Integer<1, 1024>>,
     /// Processor time of each robot in all its matches, in seconds, before it is withdrawn.
-    /// Default: 300, and 2 more for each of its matches.
+    /// Default: 300, and 2 more for each of its matches; as many times more as `match_time_seconds`.
     pub robot_time_seconds: Option<Integer<1, 31_536_000>>,
-    /// Processor time of a match, in seconds. Default 60.
+    /// Processor time of a match, in seconds. Default 60 for each 20,000,000,000 units of match
+    /// fuel, so 600 by interpreted rules.
     pub match_time_seconds: Option<Integer<1, 86_400>>,
     /// Which transcripts are kept.
     pub keep_transcripts: KeepTranscripts,

@@ -1,12 +1,12 @@
 //! [`ContestReport`]: what every report of a contest is made from.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use wasmouse_core::Digest;
 use wasmouse_core::record::EngineId;
 
 use super::picture::Pictures;
-use crate::contest::{MazeFilter, PairedComparison, Ranking, ScoreMatrix, Scoring};
+use crate::contest::{Complaint, MazeFilter, PairedComparison, Ranking, ScoreMatrix, Scoring};
 
 /// What a report does not show.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -72,6 +72,8 @@ pub struct ContestReport<'a> {
     /// Matches of which the web page shows a picture. Those of hidden robots and mazes are left
     /// out.
     pub pictures: Pictures,
+    /// What robots wrote when they first failed, by robot and name of the kind of fault.
+    pub complaints: BTreeMap<(usize, &'static str), Complaint>,
 }
 
 /// Pairs of robots that are compared, at most.
@@ -139,6 +141,7 @@ impl<'a> ContestReport<'a> {
             overall,
             results_digest: None,
             pictures: Pictures::default(),
+            complaints: BTreeMap::new(),
         }
     }
 
@@ -153,6 +156,16 @@ impl<'a> ContestReport<'a> {
     #[must_use]
     pub fn with_pictures(mut self, pictures: Pictures) -> Self {
         self.pictures = pictures;
+        self
+    }
+
+    /// Adds what robots wrote when they first failed, by robot and name of the kind of fault.
+    #[must_use]
+    pub fn with_complaints(
+        mut self,
+        complaints: impl IntoIterator<Item = ((usize, &'static str), Complaint)>,
+    ) -> Self {
+        self.complaints = complaints.into_iter().collect();
         self
     }
 }

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 use wasmouse_core::Digest;
-use wasmouse_core::game::{Ruleset, Score};
+use wasmouse_core::game::{FuelClass, Ruleset, Score};
 use wasmouse_core::record::{EngineId, MatchRecord};
 
 use super::document::{Compared, ContestReport};
@@ -28,6 +28,7 @@ struct Document<'a> {
     wasmouse: &'static str,
     engine: &'a EngineId,
     rules: &'a Ruleset,
+    fuel_class: Option<&'static str>,
     seeds: Seeds,
     scoring: ScoringEntry<'a>,
     matches: MatchCounts,
@@ -176,6 +177,7 @@ pub fn json(report: &ContestReport<'_>) -> String {
         wasmouse: env!("CARGO_PKG_VERSION"),
         engine: report.engine,
         rules: &matrix.rules,
+        fuel_class: matrix.rules.fuel_class().map(FuelClass::name),
         seeds: matrix.seeds,
         scoring: ScoringEntry {
             method: report.scoring.method,

@@ -17,8 +17,10 @@ pub fn markdown(report: &ContestReport<'_>) -> String {
     line(&format!("# Contest {}\n", code(report.name)));
     let matches = words::count(view.matches_played(), "match");
     let robots = words::count(view.robots.len() as u64, "robot");
+    let class = report.matrix.rules.fuel_class();
+    let class = class.map_or_else(String::new, |it| format!(", fuel class {}", it.name()));
     line(&format!(
-        "{robots}, {}, {matches}; ruleset {} version {}.",
+        "{robots}, {}, {matches}; ruleset {} version {}{class}.",
         words::count(report.matrix.mazes.len() as u64, "maze"),
         code(&report.matrix.rules.name),
         report.matrix.rules.version

@@ -25,6 +25,11 @@ pub fn table(report: &ContestReport<'_>, layout: Layout) -> String {
         line(&ranking(&view, &part, layout));
     }
     line("");
+    let rules = for_terminal(&report.matrix.rules.name);
+    line(&format!(
+        "Ruleset {rules}, {}.",
+        words::fuel(&report.matrix.rules)
+    ));
     line(&words::ranked_by(
         report.scoring,
         report.overall.penalty_steps,

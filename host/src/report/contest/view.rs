@@ -7,9 +7,10 @@ use std::collections::{HashMap, HashSet};
 use wasmouse_core::Digest;
 use wasmouse_core::game::Verdict;
 
+use super::super::faults::explained;
 use super::document::{Compared, ContestReport, PartRanking};
 use crate::contest::{
-    MatrixMaze, MatrixRobot, NotAdmitted, Ranking, RankingLine, RobotState, ScoreMatrix,
+    Complaint, MatrixMaze, MatrixRobot, NotAdmitted, Ranking, RankingLine, RobotState, ScoreMatrix,
 };
 
 /// What a report shows. Texts are as they are: formats escape them.
@@ -50,7 +51,7 @@ pub(super) struct Unranked<'a> {
 }
 
 /// A kind of fault of a robot.
-pub(super) struct FaultLine {
+pub(super) struct FaultLine<'a> {
     pub(super) robot: usize,
     /// The name of the kind.
     pub(super) kind: &'static str,
@@ -59,6 +60,8 @@ pub(super) struct FaultLine {
     pub(super) matches: u64,
     /// The first match that ended so; `None` in a hidden maze.
     pub(super) first: Option<FirstFault>,
+    /// What the robot wrote then, if that may be shown.
+    pub(super) complaint: Option<&'a Complaint>,
 }
 
 /// Where a fault happened first.
@@ -214,16 +217,17 @@ impl<'a> View<'a> {
     }
 
     /// The faults of the robots that are shown, by robot.
-    pub(super) fn faults(&self) -> Vec<FaultLine> {
+    pub(super) fn faults(&self) -> Vec<FaultLine<'a>> {
         let mut lines = Vec::new();
         for &robot in &self.robots {
             for (kind, fault) in &self.robot(robot).faults {
                 let key = &fault.first.key;
                 let maze = self.maze_by_digest(&key.maze);
+                let may_show = !self.report.options.hide_names;
+                let complaint = self.report.complaints.get(&(robot, *kind));
+                let complaint = complaint.filter(|_| may_show && maze.is_some());
                 let detail = match &fault.first.verdict {
-                    Verdict::Fault { fault } if !self.report.options.hide_names => {
-                        Some(fault.to_string())
-                    }
+                    Verdict::Fault { fault } if may_show => Some(explained(fault, complaint)),
                     _ => None,
                 };
                 lines.push(FaultLine {
@@ -236,6 +240,7 @@ impl<'a> View<'a> {
                         seed: key.seed,
                         detail,
                     }),
+                    complaint,
                 });
             }
         }

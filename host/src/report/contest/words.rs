@@ -7,6 +7,7 @@ use super::view::{FaultLine, Part, Unranked, View};
 use crate::contest::{
     MatchScore, Mean, Method, Outcome, PairedVerdict, RankingLine, Scoring, Seeds, TieBreak,
 };
+use crate::report::number::grouped;
 
 /// What is shown where there is no value.
 pub(super) const NONE: &str = "-";
@@ -57,9 +58,20 @@ pub(super) fn scored_by(rules: &Ruleset) -> String {
     };
     format!(
         "Score: steps of the speed run, plus steps of the exploration run divided by {}. \
-         Budget: {budget}; longest move: {} cells.",
-        game.exploration_divisor, game.longest_move
+         Budget: {budget}; longest move: {} cells; {}.",
+        game.exploration_divisor,
+        game.longest_move,
+        fuel(rules)
     )
+}
+
+/// How much fuel robots have under these rules: `fuel class interpreted (200,000,000,000 a match)`.
+pub(super) fn fuel(rules: &Ruleset) -> String {
+    let most = grouped(rules.sandbox.match_fuel_max);
+    match rules.fuel_class() {
+        Some(class) => format!("fuel class {} ({most} a match)", class.name()),
+        None => format!("fuel: {most} a match"),
+    }
 }
 
 /// What a ranking is about: `Overall`, `Set hidden`, `Class small`.
@@ -154,7 +166,7 @@ pub(super) fn unranked(unranked: &Unranked<'_>) -> String {
 }
 
 /// A kind of fault of a robot, as a sentence after its name.
-pub(super) fn fault(line: &FaultLine) -> String {
+pub(super) fn fault(line: &FaultLine<'_>) -> String {
     let mut text = format!(
         "{} in {} of {} matches",
         line.kind, line.count, line.matches
@@ -248,19 +260,6 @@ pub(super) fn percent(share: Option<Mean>) -> String {
 pub(super) fn rank(line: &RankingLine) -> String {
     line.rank
         .map_or_else(|| NONE.to_owned(), |rank| rank.to_string())
-}
-
-/// A number with its thousands apart, for people.
-pub(super) fn grouped(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::with_capacity(digits.len() * 4 / 3);
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
 }
 
 /// How a match ended, in a word for tables of many matches.

@@ -1,7 +1,12 @@
 //! Modules that become robots, and those that cannot.
 
-use super::*;
 use proptest::prelude::*;
+use wasmparser::{Parser, Payload};
+use wit_component::{StringEncoding, embed_component_metadata};
+
+use super::super::binary::BinaryKind;
+use super::componentize;
+use super::encode::robot_world;
 
 const START: &str = r#"(func (export "wasmouse:robot/controller@0.2.0#start")
     (param i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i64 i32))"#;
@@ -112,6 +117,105 @@ fn refusals_name_a_foreign_import() {
 fn a_wrong_signature_is_named() {
     let start = r#"(func (export "wasmouse:robot/controller@0.2.0#start") (param i32))"#;
     check_refused(&module(&[start, NEXT, MEMORY]), "#start");
+}
+
+const PLAIN_START: &str = r#"(func (export "start")
+    (param i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i64 i32))"#;
+const PLAIN_NEXT: &str = r#"(func (export "next_move")
+    (param i32 i32 i32) (result i32) i32.const 16)"#;
+const PLAIN_LOG: &str = r#"(import "journal" "log" (func (param i32 i32 i32)))"#;
+const FULL_LOG: &str = r#"(import "wasmouse:robot/journal@0.2.0" "log"
+    (func (param i32 i32 i32)))"#;
+
+#[test]
+fn plain_names_become_the_same_component() {
+    let full = componentize(&module(&[FULL_LOG, START, NEXT, MEMORY])).unwrap();
+    let plain = module(&[PLAIN_LOG, PLAIN_START, PLAIN_NEXT, MEMORY]);
+    assert_eq!(componentize(&plain).unwrap(), full);
+    let of_wit = PLAIN_NEXT.replace("next_move", "next-move");
+    let of_wit = module(&[PLAIN_LOG, PLAIN_START, &of_wit, MEMORY]);
+    assert_eq!(componentize(&of_wit).unwrap(), full);
+}
+
+#[test]
+fn exports_beside_plain_names_stay() {
+    let initialize = r#"(func (export "_initialize"))(global (export "g") i32 i32.const 1)"#;
+    let plain = componentize(&module(&[PLAIN_START, PLAIN_NEXT, MEMORY, initialize])).unwrap();
+    let full = componentize(&module(&[START, NEXT, MEMORY, initialize])).unwrap();
+    assert_eq!(plain, full);
+    assert_ne!(plain, componentize(&good()).unwrap());
+    // What a linker exports beside the full names means nothing.
+    let both = r#"(func (export "start"))(func (export "next_move"))"#;
+    assert!(componentize(&module(&[START, NEXT, MEMORY, both])).is_ok());
+}
+
+#[test]
+fn mixed_names_are_refused() {
+    for (fields, message_part) in [
+        (
+            [START, PLAIN_NEXT, MEMORY, ""],
+            "plain for export `next_move`, full for others",
+        ),
+        (
+            [PLAIN_START, NEXT, MEMORY, ""],
+            "plain for export `start`, full for others",
+        ),
+        (
+            [PLAIN_LOG, START, NEXT, MEMORY],
+            "plain for imports from `journal`, full for its exports",
+        ),
+        (
+            [FULL_LOG, PLAIN_START, PLAIN_NEXT, MEMORY],
+            "plain for its exports, full for imports from `wasmouse:robot/journal@0.2.0`",
+        ),
+    ] {
+        check_refused(&module(&fields), message_part);
+    }
+    let other = PLAIN_NEXT.replace("next_move", "next-move");
+    check_refused(
+        &module(&[PLAIN_START, PLAIN_NEXT, &other, MEMORY]),
+        "exports both `next_move` and `next-move`",
+    );
+}
+
+#[test]
+fn missing_plain_names_are_named() {
+    check_refused(
+        &module(&[PLAIN_START, MEMORY]),
+        "without the export `next_move`",
+    );
+    check_refused(&module(&[PLAIN_NEXT, MEMORY]), "without the export `start`");
+    check_refused(
+        &module(&[PLAIN_START, PLAIN_NEXT]),
+        "without the export `memory`",
+    );
+    let foreign = r#"(import "env" "abort" (func))"#;
+    check_refused(
+        &module(&[foreign, PLAIN_START, PLAIN_NEXT, MEMORY]),
+        "imports `abort` from `env`",
+    );
+    let unknown = r#"(import "journal" "print" (func))"#;
+    check_refused(
+        &module(&[unknown, PLAIN_START, PLAIN_NEXT, MEMORY]),
+        "print",
+    );
+    let short = PLAIN_START.replace("i64 ", "");
+    check_refused(&module(&[&short, PLAIN_NEXT, MEMORY]), "#start");
+}
+
+#[test]
+fn names_of_build_targets_are_refused() {
+    let next = r#"(func (export "cm32p2|wasmouse:robot/controller@0.2|next-move"))"#;
+    check_refused(&module(&[next]), "the build target `cm32p2`");
+}
+
+#[test]
+fn proposals_that_are_off_are_named() {
+    let tag = "(tag)";
+    check_refused(
+        &module(&[START, NEXT, MEMORY, tag]),
+        "uses exceptions at byte",
+    );
 }
 
 #[test]

@@ -3,9 +3,9 @@
 use wasmparser::{Encoding, Parser, Payload, ValidPayload, Validator};
 
 use super::super::place::FunctionPlace;
+use super::super::proposal::{FEATURES, Proposal};
 use super::super::rejection::Rejection;
 use super::component::Components;
-use super::features::FEATURES;
 use super::function::Functions;
 use super::measure::{Gauge, Measure};
 use super::module::Module;
@@ -20,7 +20,8 @@ use crate::limits::Limits;
 /// # Errors
 ///
 /// [`Rejection::OverLimit`] with the limit, the value and the place;
-/// [`Rejection::Invalid`] when the file is malformed or uses a proposal that is off.
+/// [`Rejection::Invalid`] when the file is malformed, and [`Rejection::Proposal`] when it uses a
+/// proposal that is off.
 ///
 /// ```
 /// use wasmouse_engine::Limits;
@@ -157,8 +158,19 @@ impl Check<'_> {
 
 impl From<wasmparser::BinaryReaderError> for Rejection {
     fn from(error: wasmparser::BinaryReaderError) -> Self {
+        let byte = error.offset();
+        if let Some(proposal) = Proposal::needed(&error) {
+            return Self::Proposal {
+                proposal,
+                byte,
+                place: None,
+            };
+        }
         // Some messages have a second line with the cause.
         let message = error.message().replace('\n', ": ");
-        Self::Invalid(format!("{message} at byte {}", error.offset()))
+        Self::Invalid {
+            message,
+            byte: Some(byte),
+        }
     }
 }

@@ -128,9 +128,10 @@ impl Unknown {
             Self::Foreign => "is handed or takes out of an instance",
             Self::Missing => "does not have",
         };
-        Rejection::Invalid(format!(
-            "it instantiates a component or module that it {what}, at byte {byte}"
-        ))
+        Rejection::Invalid {
+            message: format!("it instantiates a component or module that it {what}"),
+            byte: Some(byte),
+        }
     }
 }
 

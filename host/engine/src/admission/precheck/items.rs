@@ -6,8 +6,8 @@
 
 use wasmparser::{BinaryReader, FromReader, SectionLimited};
 
+use super::super::proposal::FEATURES;
 use super::super::rejection::Rejection;
-use super::features::FEATURES;
 
 /// Calls `check` for each item of a section with its offset in the file, the item, and a
 /// section that has nothing but the item.

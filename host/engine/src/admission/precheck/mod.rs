@@ -75,7 +75,6 @@ mod cost;
 mod declared;
 mod depth;
 mod expansion;
-mod features;
 mod flow;
 mod function;
 mod items;

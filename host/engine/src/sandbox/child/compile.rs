@@ -107,6 +107,8 @@ fn compile(engine: &Engine, file: &[u8], order: &CompileOrder) -> (Examined, Vec
 }
 
 fn precompile(engine: &Engine, component: &[u8]) -> Result<Vec<u8>, Rejection> {
-    crate::runtime::precompile(engine, component)
-        .map_err(|error| Rejection::Invalid(format!("{error:#}")))
+    crate::runtime::precompile(engine, component).map_err(|error| Rejection::Invalid {
+        message: format!("{error:#}"),
+        byte: None,
+    })
 }

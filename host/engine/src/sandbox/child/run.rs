@@ -174,7 +174,7 @@ impl Table {
             }
             // From another version of wasmtime, say, or more than the pool has room for. The
             // supervisor knows how old the code is.
-            Err(AdmissionError::Rejected(rejection @ Rejection::Invalid(_))) => {
+            Err(AdmissionError::Rejected(rejection @ Rejection::Invalid { .. })) => {
                 Loaded::Unloadable(rejection.into())
             }
             Err(AdmissionError::Rejected(rejection)) => Loaded::Rejected(rejection.into()),

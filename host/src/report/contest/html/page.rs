@@ -76,6 +76,9 @@ fn page(view: &View<'_>, sections: &[Section]) -> String {
                         (count(view.matches_played(), "match"))
                         "; ruleset " (shown(&report.matrix.rules.name))
                         " version " (report.matrix.rules.version)
+                        @if let Some(class) = report.matrix.rules.fuel_class() {
+                            ", fuel class " (class.name())
+                        }
                     }
                     @if let Some(missing) = words::missing(view) { p.notice { strong { (missing) } } }
                     @for sentence in words::left_out(view) { p.notice { (shown(&sentence)) } }

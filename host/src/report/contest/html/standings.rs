@@ -5,7 +5,8 @@ use maud::{Markup, html};
 use super::parts::{caption, label, shown};
 use crate::contest::{Mean, RankingLine};
 use crate::report::contest::view::{Part, View, state};
-use crate::report::contest::words::{self, grouped, mean, percent};
+use crate::report::contest::words::{self, mean, percent};
+use crate::report::number::grouped;
 
 /// The overall ranking, and those of sets and classes below it.
 pub(super) fn standings(view: &View<'_>) -> Option<Markup> {
@@ -120,7 +121,10 @@ pub(super) fn faults(view: &View<'_>) -> Option<Markup> {
     let faults = view.faults();
     (!faults.is_empty()).then(|| {
         html! { ul { @for it in faults {
-            li { strong { (shown(view.name(it.robot))) } ": " (shown(&words::fault(&it))) }
+            li {
+                strong { (shown(view.name(it.robot))) } ": " (shown(&words::fault(&it)))
+                @if let Some(complaint) = it.complaint { pre { @for line in &complaint.lines { (shown(line)) "\n" } } }
+            }
         } } }
     })
 }

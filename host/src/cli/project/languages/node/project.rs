@@ -32,6 +32,7 @@ pub static TYPESCRIPT: Language = Language {
     is_in: |folder| folder.join("tsconfig.json").is_file() && Manifest::is_of_robot(folder),
     open,
     compile: |project, _: &Options| {
+        NODE.find(None)?;
         check_types(project)?;
         compile(project)
     },

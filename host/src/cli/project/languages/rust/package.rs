@@ -26,7 +26,7 @@ pub static LANGUAGE: Language = Language {
         let profile = options.profile.as_deref().unwrap_or(DEFAULT_PROFILE);
         Crate::of(project).compile(profile)
     },
-    sources: &["src", MANIFEST, "Cargo.lock", "build.rs", "vendor"],
+    sources: &["src", MANIFEST, "build.rs", "vendor"],
     tools: &[&CARGO],
     check: Some(Toolchain::check),
     setup: &[],

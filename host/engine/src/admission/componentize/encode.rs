@@ -1,0 +1,62 @@
+//! Makes a component of a module that has the names of a robot.
+
+use std::borrow::Cow;
+
+use wit_component::{ComponentEncoder, StringEncoding, embed_component_metadata};
+use wit_parser::{Resolve, WorldId};
+
+use super::error::ComponentizeError;
+
+/// The text of the WIT package `wasmouse:robot`, the contract every robot keeps.
+pub const ROBOT_WIT: &str = include_str!("../../../../../wit/robot.wit");
+
+/// The robot world, parsed from [`ROBOT_WIT`], in the compatible version that ends in
+/// `patch`: a component has the names that its module has.
+pub(super) fn robot_world(patch: u64) -> (Resolve, WorldId) {
+    let mut resolve = Resolve::default();
+    let package = resolve
+        .push_str("robot.wit", ROBOT_WIT)
+        .expect("the embedded WIT parses; a test holds it");
+    let name = &mut resolve.packages[package].name;
+    let version = name.version.as_mut();
+    version
+        .expect("the embedded WIT has a version; a test holds it")
+        .patch = patch;
+    let world = resolve
+        .select_world(&[package], Some("robot"))
+        .expect("the embedded WIT has the world `robot`; a test holds it");
+    (resolve, world)
+}
+
+/// The component around a module with types.
+pub(super) fn encode(typed_module: &[u8]) -> Result<Vec<u8>, ComponentizeError> {
+    let mut encoder = ComponentEncoder::default();
+    encoder
+        .validate(true)
+        .module(typed_module)
+        .and_then(|encoder| encoder.encode())
+        .map_err(|error| ComponentizeError::Mismatch {
+            // `:#` joins the causes; the innermost one names the function. It
+            // may quote the guest, so it must not reach a terminal raw.
+            message: format!("{error:#}").replace(char::is_control, " "),
+        })
+}
+
+/// The module with the types of the world `robot`, which says that it encodes strings so.
+pub(super) fn with_robot_types(
+    untyped: Cow<'_, [u8]>,
+    strings: Option<StringEncoding>,
+    patch: u64,
+) -> Vec<u8> {
+    let (resolve, world) = robot_world(patch);
+    let mut untyped = untyped.into_owned();
+    embed_component_metadata(
+        &mut untyped,
+        &resolve,
+        world,
+        strings.unwrap_or_default(),
+        false,
+    )
+    .expect("the embedded WIT encodes; a test holds it");
+    untyped
+}

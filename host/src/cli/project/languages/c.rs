@@ -1,0 +1,26 @@
+//! C: a project is `src/robot.c`, compiled with `zig cc` or clang.
+
+use super::c_family::{Dialect, SOURCES};
+use super::zig_compiler::ZIG_CC;
+use crate::cli::project::language::Language;
+
+/// C.
+pub static LANGUAGE: Language = Language {
+    name: "c",
+    title: "C",
+    markers: &[DIALECT.entries[0]],
+    is_in: |folder| folder.join(DIALECT.entries[0]).is_file(),
+    open: |folder, language| DIALECT.open(folder, language),
+    compile: |project, _| DIALECT.compile(project),
+    sources: SOURCES,
+    tools: &[&ZIG_CC],
+    check: None,
+    setup: &[],
+};
+
+pub(super) const DIALECT: Dialect = Dialect {
+    driver: "cc",
+    clang_options: &[],
+    extensions: &["c"],
+    entries: ["src/robot.c", "src/robot.cpp"],
+};

@@ -1,0 +1,1 @@
+//! Broken projects: each gives one clear error.
