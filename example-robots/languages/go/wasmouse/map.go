@@ -2,7 +2,7 @@ package wasmouse
 
 import "fmt"
 
-// Wall is what is known about one wall.
+// Wall is what the robot believes about one wall.
 type Wall uint8
 
 const (

@@ -92,7 +92,11 @@ class Reset:
 
 
 Action = Move | Reset
-"""What the robot does in one step. Every action takes one step."""
+"""What the robot does in one step. Every action takes one step.
+
+- `Move`: Turn, then drive.
+- `Reset`: end the exploration run.
+"""
 
 
 @dataclass(frozen=True, order=True)
