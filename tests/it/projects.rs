@@ -101,10 +101,16 @@ fn a_build_that_watches_builds_again_until_it_is_interrupted() {
     let stderr = child.stderr.take().expect("stderr is piped");
     let mut lines = BufReader::new(stderr).lines().map(|it| it.expect("a line"));
     // What does not compile is reported, and not the end.
-    let report: Vec<String> = lines.by_ref().take_while(|it| !it.contains("Ctrl-C")).collect();
+    let report: Vec<String> = lines
+        .by_ref()
+        .take_while(|it| !it.contains("Ctrl-C"))
+        .collect();
     assert!(report.concat().contains("error: "), "{report:?}");
     fs::write(&module, wasm(&Module::default().wat())).expect("a file");
-    let report: Vec<String> = lines.by_ref().take_while(|it| !it.contains("Ctrl-C")).collect();
+    let report: Vec<String> = lines
+        .by_ref()
+        .take_while(|it| !it.contains("Ctrl-C"))
+        .collect();
     assert!(report.is_empty(), "{report:?}");
     assert!(folder.join("bot.component.wasm").is_file());
     #[cfg(unix)]

@@ -3,6 +3,7 @@
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::process::Stdio;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -135,6 +136,11 @@ pub fn finish(exit: Exit) -> Exit {
             Exit::Internal
         }
     }
+}
+
+/// Where a child process that was started for the user writes its stdout: ours is for results.
+pub fn child_stdout() -> Stdio {
+    io::stderr().into()
 }
 
 /// Writes a line to standard error.

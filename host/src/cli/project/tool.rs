@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use crate::cli::failure::Failure;
-use crate::cli::output::message;
+use crate::cli::output::{self, message};
 use crate::report::text::{Text, text};
 
 /// A program that is needed to build projects.
@@ -176,7 +176,7 @@ impl FoundTool {
     /// When it cannot be started or reports an error.
     pub fn run(&self, mut command: Command, purpose: &Text) -> Result<(), Failure> {
         let status = command
-            .stdout(std::io::stderr())
+            .stdout(output::child_stdout())
             .status()
             .map_err(|error| self.not_started(&error))?;
         if status.success() {
