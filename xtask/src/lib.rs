@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 pub mod bindings;
 pub mod corpus;
+pub mod costs;
 pub mod dist;
 pub mod fuzz;
 pub mod languages;

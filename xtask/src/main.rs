@@ -5,8 +5,8 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use xtask::{
-    bindings, corpus, dist, fuzz, languages, platforms, reference, repository, robots, validators,
-    verify, wasi,
+    bindings, corpus, costs, dist, fuzz, languages, platforms, reference, repository, robots,
+    validators, verify, wasi,
 };
 
 /// Automation for the wasmouse repository.
@@ -54,6 +54,13 @@ enum Command {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<OsString>,
     },
+    /// Build a robot in every language and write the costs into docs/LANGUAGES.md; see `--help`.
+    #[command(disable_help_flag = true)]
+    Costs {
+        /// Arguments for the program `costs`.
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<OsString>,
+    },
     /// Check that everything compiles without warnings for Windows and macOS.
     CheckPlatforms,
     /// Build the program for release and pack it with its checksum, as a release has it.
@@ -84,6 +91,7 @@ fn main() -> ExitCode {
         Command::Wasi { check: true } => wasi::check(&root),
         Command::Corpus { arguments } => corpus::run(&root, &arguments),
         Command::Reference { arguments } => reference::run(&root, &arguments),
+        Command::Costs { arguments } => costs::run(&root, &arguments),
         Command::CheckPlatforms => platforms::run(&root),
         Command::Dist(args) => dist::run(&root, &args),
         Command::Validators => validators::run(&root),
