@@ -26,6 +26,7 @@ Examples:
   wasmouse build my-robot              writes my-robot/my-robot.wasm
   wasmouse build my-robot -o bot.wasm
   wasmouse build module.wasm           wraps a core module of any language
+  wasmouse build component.wasm        puts what answers WASI into a component
 
 The wasm target is added with rustup if it is missing. If rustup cannot fetch it,
 a packaged compiler is used (Debian: rustc-web, rust-web-src, lld-22).";
@@ -34,11 +35,12 @@ a packaged compiler is used (Debian: rustc-web, rust-web-src, lld-22).";
 ///
 /// For a project, runs `cargo build` for wasm32-unknown-unknown and writes
 /// NAME.wasm into the project folder. For a core module FILE.wasm, writes
-/// FILE.component.wasm beside it.
+/// FILE.component.wasm beside it. For a component FILE.wasm that imports WASI, writes
+/// FILE.robot.wasm, which has what answers WASI inside.
 #[derive(clap::Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
-    /// Robot project folder, or a core module (.wasm)
+    /// Robot project folder, a core module, or a component that imports WASI (.wasm)
     #[arg(default_value = ".")]
     path: PathBuf,
     /// Output file for the component
@@ -76,7 +78,12 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
             ))
             .hint("give the folder of a robot project or a core module (.wasm)")
         })?;
-        (module, args.path.with_extension("component.wasm"))
+        let extension = match BinaryKind::of(&module) {
+            BinaryKind::Component => "robot.wasm",
+            _ => "component.wasm",
+        };
+        let default_output = args.path.with_extension(extension);
+        (module, default_output)
     };
     let component = to_component(&core_module, &args.path)?;
     let file = args.output.as_deref().unwrap_or(&default_output);

@@ -108,7 +108,18 @@ extern "C" fn missing_20(_: i32, _: i32, _: i32, _: i32) -> i32 {
 }
 
 #[unsafe(export_name = "wasi:filesystem/types@0.2.12#[method]descriptor.set-times-at")]
-extern "C" fn missing_21(_: i32, _: i32, _: i32, _: i32, _: i32, _: i64, _: i32, _: i32, _: i64, _: i32) -> i32 {
+extern "C" fn missing_21(
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i64,
+    _: i32,
+    _: i32,
+    _: i64,
+    _: i32,
+) -> i32 {
     missing("wasi:filesystem/types#descriptor.set-times-at")
 }
 
@@ -178,7 +189,22 @@ extern "C" fn missing_34() -> i32 {
 }
 
 #[unsafe(export_name = "wasi:sockets/udp@0.2.12#[method]udp-socket.start-bind")]
-extern "C" fn missing_35(_: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32) -> i32 {
+extern "C" fn missing_35(
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+) -> i32 {
     missing("wasi:sockets/udp#udp-socket.start-bind")
 }
 
@@ -188,7 +214,22 @@ extern "C" fn missing_36(_: i32) -> i32 {
 }
 
 #[unsafe(export_name = "wasi:sockets/udp@0.2.12#[method]udp-socket.stream")]
-extern "C" fn missing_37(_: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32) -> i32 {
+extern "C" fn missing_37(
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+) -> i32 {
     missing("wasi:sockets/udp#udp-socket.stream")
 }
 
@@ -273,7 +314,22 @@ extern "C" fn missing_53(_: i32) -> i32 {
 }
 
 #[unsafe(export_name = "wasi:sockets/tcp@0.2.12#[method]tcp-socket.start-bind")]
-extern "C" fn missing_54(_: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32) -> i32 {
+extern "C" fn missing_54(
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+) -> i32 {
     missing("wasi:sockets/tcp#tcp-socket.start-bind")
 }
 
@@ -283,7 +339,22 @@ extern "C" fn missing_55(_: i32) -> i32 {
 }
 
 #[unsafe(export_name = "wasi:sockets/tcp@0.2.12#[method]tcp-socket.start-connect")]
-extern "C" fn missing_56(_: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32, _: i32) -> i32 {
+extern "C" fn missing_56(
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+    _: i32,
+) -> i32 {
     missing("wasi:sockets/tcp#tcp-socket.start-connect")
 }
 
