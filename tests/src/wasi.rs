@@ -8,7 +8,7 @@ use std::process::Command;
 
 use wasm_encoder::{Component, RawSection};
 use wasmouse_engine::admission::{INTERFACE_VERSION, ROBOT_WIT};
-use wasmparser::{BinaryReader, Validator};
+use wasmparser::{BinaryReader, Parser, Payload, Validator};
 use wit_component::{ComponentEncoder, StringEncoding, embed_component_metadata};
 use wit_parser::abi::{AbiVariant, WasmType};
 use wit_parser::{Resolve, WorldId, WorldItem};
@@ -180,6 +180,83 @@ const fn rust_type(ty: WasmType) -> &'static str {
         WasmType::F64 => "f64",
         WasmType::I32 | WasmType::Pointer | WasmType::Length => "i32",
     }
+}
+
+/// A component around a robot's core module that may import all of preview 2.
+///
+/// # Errors
+///
+/// What does not fit.
+pub fn typed(module: &[u8]) -> Result<Vec<u8>, String> {
+    let root = crate::bindings::repository();
+    let (mut resolve, world) = world(&root, "preview2")?;
+    let names: Vec<String> = resolve.worlds[world]
+        .exports
+        .keys()
+        .map(|key| resolve.name_world_key(key))
+        .filter(|name| name.starts_with("wasi:"))
+        .map(|name| format!("import {name};"))
+        .collect();
+    let text = format!(
+        "package test:probe; world probe {{ import wasmouse:robot/journal@{INTERFACE_VERSION}; {} \
+         export wasmouse:robot/controller@{INTERFACE_VERSION}; }}",
+        names.join(" ")
+    );
+    let package = resolve
+        .push_str("probe.wit", &text)
+        .map_err(|error| format!("{error:#}"))?;
+    let world = resolve
+        .select_world(&[package], Some("probe"))
+        .map_err(|error| format!("{error:#}"))?;
+    let mut module = module.to_vec();
+    embed_component_metadata(&mut module, &resolve, world, StringEncoding::UTF8, false)
+        .map_err(|error| format!("{error:#}"))?;
+    ComponentEncoder::default()
+        .validate(true)
+        .module(&module)
+        .and_then(|encoder| encoder.encode())
+        .map_err(|error| format!("{error:#}"))
+}
+
+/// What the documentation has to list: the functions of preview 1, and of preview 2 the
+/// interfaces and the functions that are answered.
+///
+/// # Errors
+///
+/// What cannot be read.
+pub fn functions(folder: &Path) -> Result<Vec<String>, String> {
+    let adapter = folder.join("prebuilt/adapter.wasm");
+    let adapter =
+        fs::read(&adapter).map_err(|error| format!("`{}`: {error}", adapter.display()))?;
+    let mut names = Vec::new();
+    for payload in Parser::new(0).parse_all(&adapter) {
+        if let Ok(Payload::ExportSection(section)) = payload {
+            names.extend(section.into_iter().flatten().map(|it| it.name.to_owned()));
+        }
+    }
+    names.retain(|name| !name.starts_with("wasmouse:"));
+    let (resolve, world) = world(&crate::bindings::repository(), "preview2")?;
+    let answered = folder.join("guest/src/preview2.rs");
+    let answered = fs::read_to_string(&answered)
+        .map_err(|error| format!("`{}`: {error}", answered.display()))?;
+    for (key, item) in &resolve.worlds[world].exports {
+        let interface = resolve.name_world_key(key);
+        let WorldItem::Interface { id, .. } = item else {
+            continue;
+        };
+        if !interface.starts_with("wasi:") {
+            continue;
+        }
+        for function in resolve.interfaces[*id].functions.keys() {
+            if answered.contains(&format!("\"{interface}#{function}\"")) {
+                let name = function.rsplit(']').next().unwrap_or_default();
+                names.push(name.rsplit('.').next().unwrap_or_default().to_owned());
+            }
+        }
+        let (interface, _) = interface.split_once('@').unwrap_or((&interface, ""));
+        names.push(interface.to_owned());
+    }
+    Ok(names)
 }
 
 /// A world of the package `wasmouse:wasi`.

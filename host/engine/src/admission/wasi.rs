@@ -21,6 +21,9 @@ pub enum ComposeError {
     /// The bytes are no component.
     #[error("not a component")]
     NotAComponent,
+    /// It imports nothing of WASI, so there is nothing to do.
+    #[error("already a component")]
+    WithoutWasi,
     /// It would be rejected whatever it imports.
     #[error(transparent)]
     Rejected(#[from] Rejection),
@@ -40,6 +43,7 @@ impl ComposeError {
     pub fn hint(&self) -> &str {
         match self {
             Self::NotAComponent => "core modules become robots as they are",
+            Self::WithoutWasi => "use the file as it is",
             Self::Rejected(rejection) => rejection.hint(),
             Self::UnknownImport(_) => {
                 "a robot may import the interface `journal` of `wit/robot.wit`, WASI and nothing \
@@ -78,6 +82,9 @@ pub fn compose(component: &[u8], limits: &Limits) -> Result<Vec<u8>, ComposeErro
         return Err(ComposeError::NotAComponent);
     }
     let shape = precheck(component, limits)?;
+    if !shape.imports.iter().any(|import| is_wasi(import)) {
+        return Err(ComposeError::WithoutWasi);
+    }
     if let Some(found) = version::other(shape.imports.iter().chain(&shape.exports).map(|it| &**it))
     {
         return Err(Rejection::OtherVersion(found.to_owned()).into());

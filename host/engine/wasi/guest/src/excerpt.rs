@@ -20,6 +20,12 @@ pub struct Excerpt {
     is_cut: bool,
 }
 
+impl Default for Excerpt {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Excerpt {
     /// Of nothing.
     pub const fn new() -> Self {
