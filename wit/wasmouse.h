@@ -442,7 +442,7 @@ const wm_action *wm_next_move(uint32_t left,
 /**
  * Writes a line of text.
  *
- * @param level
+ * @param level The severity of a log message.
  * @param message Address of the text.
  * @param message_length Length of the text. Unit: bytes.
  */
@@ -456,7 +456,7 @@ void wm_journal_log(wm_level level,
  *
  * @param cell_x Column, counted from the left, starting at 0.
  * @param cell_y Row, counted from the bottom, starting at 0.
- * @param color
+ * @param color The colour of a cell.
  */
 WM_IMPORT("wasmouse:robot/journal@0.2.0", "paint")
 void wm_journal_paint(uint32_t cell_x,
@@ -484,8 +484,8 @@ void wm_journal_label(uint32_t cell_x,
  *
  * @param cell_x Column, counted from the left, starting at 0.
  * @param cell_y Row, counted from the bottom, starting at 0.
- * @param side
- * @param belief
+ * @param side A direction in the maze, independent of the robot.
+ * @param belief What the robot believes about one wall.
  */
 WM_IMPORT("wasmouse:robot/journal@0.2.0", "wall")
 void wm_journal_wall(uint32_t cell_x,

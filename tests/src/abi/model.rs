@@ -266,7 +266,14 @@ impl Reader {
                 let length = [path, &["length".to_owned()]].concat();
                 push(length, Shape::Length, "Length of the text. Unit: bytes.");
             }
-            shape => push(path.to_vec(), shape, docs),
+            shape => {
+                // What has no words of its own has those of its type.
+                let of_type = match (docs, self.definition(ty)) {
+                    ("", Some(id)) => text(&self.resolve.types[id].docs),
+                    _ => String::new(),
+                };
+                push(path.to_vec(), shape, &format!("{docs}{of_type}"));
+            }
         }
         Ok(())
     }
