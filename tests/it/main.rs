@@ -72,6 +72,8 @@ mod pointers;
 mod prebuilt;
 /// The check before compilation: limits, bombs, proposals.
 mod precheck;
+/// Profiles: sums, names, faults, workers.
+mod profile;
 /// Robot projects, and files of results.
 mod projects;
 /// The commands of the README.

@@ -22,10 +22,10 @@ Examples:
   wasmouse profile my-robot --maze gen:tree:16:1 -o my-robot.speedscope.json
   wasmouse profile my-robot.wasm --format folded | inferno-flamegraph > fuel.svg
 
-Open the file at https://www.speedscope.app, or in the Firefox profiler, which
-imports it (https://profiler.firefox.com). Nothing is sampled: fuel is counted at
-every call and every return, so a match has the same profile everywhere, and its
-sum is the fuel of the match. Functions need a name section, which release builds
+Open the file at https://www.speedscope.app. The Firefox profiler
+(https://profiler.firefox.com) reads folded stacks. Nothing is sampled: fuel is
+counted at every call and every return, so a match has the same profile
+everywhere, and its sum is the fuel of the match. Functions need a name section, which release builds
 of most toolchains have; others are shown as wasm-function[N]. The robot is
 instrumented and compiled for it, and runs some ten to hundred times slower.
 
@@ -69,15 +69,13 @@ pub struct Args {
     setup: SetupArgs,
     #[command(flatten)]
     isolation: IsolationArgs,
-    #[command(flatten)]
-    time: TimeArgs,
 }
 
 #[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
 enum Format {
-    /// JSON for speedscope and the Firefox profiler
+    /// JSON for speedscope
     Speedscope,
-    /// A line for each path of calls, for flamegraph.pl and inferno
+    /// A line for each path of calls, for flamegraph.pl, inferno and the Firefox profiler
     Folded,
     /// The functions that use most fuel
     Table,
@@ -101,7 +99,9 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     let draft = draft
         .map(|path| Draft::create(path, existing))
         .transpose()?;
-    let executor = args.setup.executor_for_all(&args.isolation, &args.time)?;
+    let executor = args
+        .setup
+        .executor_for_all(&args.isolation, &TimeArgs::default())?;
     let entrants = robots::load(&specs, &executor)?;
     let plan = Plan {
         mazes: vec![mazes.remove(0)],

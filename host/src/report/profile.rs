@@ -15,7 +15,7 @@ use super::number::grouped;
 const WIDTH: usize = 80;
 
 /// Columns before the name of a function.
-const BEFORE: usize = 54;
+const BEFORE: usize = 49;
 
 /// What a profile is about.
 #[derive(Clone, Debug)]
@@ -50,7 +50,7 @@ impl ProfiledMatch<'_> {
             grouped(fuel),
             grouped(self.steps)
         );
-        text.push_str("      Own fuel          Total fuel              Calls  Function\n");
+        text.push_str("   Own fuel         Total fuel             Calls  Function\n");
         text.push_str(&"-".repeat(WIDTH));
         text.push('\n');
         let mut costs: Vec<_> = self.profile.costs().into_iter().enumerate().collect();
@@ -59,12 +59,12 @@ impl ProfiledMatch<'_> {
             let name = for_terminal(&self.profile.functions[*at].name);
             writeln!(
                 text,
-                "{:>14} {:>6} {:>14} {:>6} {:>9}  {}",
-                grouped(cost.own),
+                "{:>11} {:>6} {:>11} {:>6} {:>9}  {}",
+                short(cost.own, 1_000_000_000),
                 percent(cost.own, fuel),
-                grouped(cost.total),
+                short(cost.total, 1_000_000_000),
                 percent(cost.total, fuel),
-                short(cost.calls),
+                short(cost.calls, 10_000_000),
                 fitting(&name)
             )
             .expect("writing to a string cannot fail");
@@ -73,8 +73,8 @@ impl ProfiledMatch<'_> {
         if !rest.is_empty() {
             let own: u64 = rest.iter().map(|(_, cost)| cost.own).sum();
             let count = grouped(rest.len() as u64);
-            let own = (grouped(own), percent(own, fuel));
-            writeln!(text, "{:>14} {:>6}  {count} more functions", own.0, own.1)
+            let own = (short(own, 1_000_000_000), percent(own, fuel));
+            writeln!(text, "{:>11} {:>6}  {count} more functions", own.0, own.1)
                 .expect("writing to a string cannot fail");
         }
         if self.profile.collapsed > 0 {
@@ -86,8 +86,7 @@ impl ProfiledMatch<'_> {
         text
     }
 
-    /// The profile in the file format of speedscope, which the Firefox profiler imports, too: the
-    /// paths of calls, weighted by fuel. One line.
+    /// The profile in the file format of speedscope: the paths of calls, weighted by fuel. One line.
     pub fn speedscope(&self) -> String {
         let profile = self.profile;
         let spent = || profile.nodes.iter().filter(|it| it.fuel > 0);
@@ -116,7 +115,7 @@ impl ProfiledMatch<'_> {
         text
     }
 
-    /// Folded stacks, as `flamegraph.pl` and `inferno` read them: a line for each path of calls,
+    /// Folded stacks, as `flamegraph.pl`, inferno and the Firefox profiler read them: a line for each path of calls,
     /// with the callers first, and its fuel.
     pub fn folded(&self) -> String {
         let mut text = String::new();
@@ -148,12 +147,12 @@ fn percent(part: u64, whole: u64) -> String {
     format!("{}.{}%", thousandths / 10, thousandths % 10)
 }
 
-/// A number of up to 9 characters.
-fn short(number: u64) -> String {
-    match number {
-        0..10_000_000 => grouped(number),
-        10_000_000..10_000_000_000 => format!("{} M", grouped(number / 1_000_000)),
-        _ => format!("{} G", grouped(number / 1_000_000_000)),
+/// A number below that limit as it is, and a larger one in millions.
+fn short(number: u64, limit: u64) -> String {
+    if number < limit {
+        grouped(number)
+    } else {
+        format!("{} M", grouped(number / 1_000_000))
     }
 }
 
@@ -223,7 +222,7 @@ mod tests {
             "next-move",
             "a;b",
             HOSTILE,
-            "robot::a::very::long::path::of::modules::flood",
+            "robot::a::very::very::long::path::of::modules::flood",
         ];
         Profile {
             functions: names
@@ -259,10 +258,10 @@ mod tests {
         let text = played(&profile).table(3);
         let rows: Vec<&str> = text.lines().skip(4).collect();
         let expected = [
-            "           650  65.0%            650  65.0%      12 M  a;b",
-            "           250  25.0%            250  25.0%         1  …:path::of::modules::flood",
-            "           100  10.0%          1,000 100.0%         3  next-move",
-            "             0   0.0%  1 more functions",
+            "        650  65.0%         650  65.0%      12 M  a;b",
+            "        250  25.0%         250  25.0%         1  …ong::path::of::modules::flood",
+            "        100  10.0%       1,000 100.0%         3  next-move",
+            "          0   0.0%  1 more functions",
         ];
         assert_eq!(rows, expected, "\n{text}");
         assert!(rows.iter().all(|it| it.chars().count() <= WIDTH));

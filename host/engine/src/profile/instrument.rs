@@ -205,7 +205,9 @@ impl Module {
                 section::EXPORT => {
                     for export in ExportSectionReader::new(reader)? {
                         let export = export?;
-                        if export.kind == ExternalKind::Func {
+                        // Adapters in components have numbers for names.
+                        let is_number = export.name.bytes().all(|it| it.is_ascii_digit());
+                        if export.kind == ExternalKind::Func && !is_number {
                             module.exported.push((export.index, export.name.to_owned()));
                         }
                     }

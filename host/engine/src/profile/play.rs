@@ -7,9 +7,9 @@ use wasmouse_core::game::{Phase, SandboxLimits};
 use wasmouse_core::record::{MatchRecord, MatchSpec};
 use wasmtime::{StoreContextMut, Trap, UpdateDeadline, WasmBacktrace};
 
-use super::Profile;
 use super::instrument::{Function, Mark, NotInstrumented, instrument};
 use super::meter::Meter;
+use super::model::Profile;
 use crate::admission::{Rejection, examine};
 use crate::error::InfrastructureError;
 use crate::limits::Limits;

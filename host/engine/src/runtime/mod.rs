@@ -26,7 +26,7 @@ pub(crate) use bindings::{Robot as Instance, action, briefing, sensors};
 pub use cache::Cache;
 pub(crate) use cache::CacheEntry;
 pub(crate) use compiled_code::{CompiledCode, Destination};
-pub(crate) use config::{Clock, new_compiler};
+pub(crate) use config::{Clock, new_backtrace_compiler, new_compiler};
 pub use config::{ENGINE_REVISION, WASMTIME_VERSION, engine_config, engine_id};
 pub(crate) use fault::{classify, out_of_fuel};
 pub(crate) use guest::Guest;

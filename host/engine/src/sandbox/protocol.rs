@@ -204,6 +204,8 @@ pub(super) struct CompileOrder {
     pub(super) compile: bool,
     /// Whether its world is wanted as WIT.
     pub(super) describe: bool,
+    /// Whether the code is for a backtrace worker.
+    pub(super) backtraces: bool,
 }
 
 /// What a file is, from a compile worker, after its [`Hello`].
@@ -235,7 +237,7 @@ pub(super) enum Compiled {
     Rejected(RejectionText),
 }
 
-/// The only frame to a backtrace worker; the file follows.
+/// The only frame to a backtrace worker; the file follows, or its code.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct BacktraceOrder {
     /// The rules of the match.
@@ -250,6 +252,10 @@ pub(super) struct BacktraceOrder {
     pub(super) variant: u32,
     /// What the match is known to do, when a [`Profiled`] is wanted instead of a [`Backtrace`].
     pub(super) profile: Option<Expected>,
+    /// The digest of the robot's file.
+    pub(super) robot: Digest,
+    /// The digest of its code, made for backtraces, when that follows instead of the file.
+    pub(super) code: Option<Digest>,
     /// Bytes that follow.
     pub(super) length: u64,
 }

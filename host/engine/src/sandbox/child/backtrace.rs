@@ -100,14 +100,14 @@ fn enter_with<R: Send + 'static>(
     )
 }
 
-fn spec(file: &[u8], order: &BacktraceOrder) -> io::Result<MatchSpec> {
+fn spec(order: &BacktraceOrder) -> io::Result<MatchSpec> {
     let maze = Maze::from_identity_bytes(&order.maze);
     let maze = maze.ok_or_else(|| io::Error::other("the maze cannot be read"))?;
     Ok(MatchSpec {
         key: MatchKey {
             engine: engine_id().digest(),
             rules: order.rules.digest(),
-            robot: Digest::of(file),
+            robot: order.robot,
             variant: order.variant,
             maze: maze.digest(),
             seed: order.seed,
@@ -129,14 +129,21 @@ fn profile(
         ..Control::default()
     };
     let clock = MatchClock::start(control, None);
-    let profile = profiler.profile(file, &spec(file, order)?, expected, &clock);
+    let profile = profiler.profile(file, &spec(order)?, expected, &clock);
     let profile = profile.map_err(|error| error.to_string());
     Ok(Profiled { profile })
 }
 
 fn backtrace(runtime: &Runtime, file: &[u8], order: &BacktraceOrder) -> io::Result<Backtrace> {
-    let spec = spec(file, order)?;
-    let Ok(robot) = runtime.admit(file) else {
+    let spec = spec(order)?;
+    let robot = match order.code {
+        None => runtime.admit(file).ok(),
+        // SAFETY: the digest is the one that the supervisor wrote down when a compile worker
+        // handed the code over.
+        Some(code) if Digest::of(file) == code => unsafe { runtime.load(file, order.robot).ok() },
+        Some(_) => None,
+    };
+    let Some(robot) = robot else {
         return Ok(Backtrace { fault: None });
     };
     let mut recording = Recording::default();
