@@ -1,7 +1,7 @@
 //! Whether the names of a module are those of a robot.
 
 use super::super::names::list_escaped;
-use super::super::version::{self, COMPATIBLE, VERSION};
+use super::super::version::{self, with_patch};
 use super::error::ComponentizeError;
 use super::module::Module;
 use super::preview1;
@@ -83,10 +83,4 @@ fn check_imports(module: &Module, patch: u64) -> Result<(), ComponentizeError> {
         module: module.escape_debug().to_string(),
         name: name.escape_debug().to_string(),
     })
-}
-
-/// A name of the interface with another patch version in it.
-pub(super) fn with_patch(name: &str, patch: u64) -> String {
-    let version = format!("{}{patch}", COMPATIBLE.trim_end_matches('x'));
-    name.replacen(VERSION, &version, 1)
 }
