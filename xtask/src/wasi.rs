@@ -45,6 +45,9 @@ pub fn rebuild(root: &Path) -> Result<(), String> {
     Step::cargo("wasi", root)
         .args(["run", "--package", "wasmouse-tests", "--bin", "wasi"])
         .run()?;
+    Step::new("format the generated source", root, "rustfmt")
+        .args(["--edition", "2024", GENERATED])
+        .run()?;
     let manifest = describe(root).map_err(|error| error.to_string())?;
     let body = toml::to_string(&manifest).expect("plain data has a TOML form");
     let text = format!(
@@ -107,6 +110,9 @@ fn describe(root: &Path) -> io::Result<Manifest> {
         files: files?,
     })
 }
+
+/// A source that is generated from the WIT.
+const GENERATED: &str = "host/engine/wasi/guest/src/missing.rs";
 
 /// Files and folders from which everything is built.
 const SOURCES: [&str; 9] = [

@@ -67,6 +67,12 @@ pub(super) fn patch(version: &str) -> Option<u64> {
     (patch.to_string() == text).then_some(patch)
 }
 
+/// A text with another patch version in place of the first [`VERSION`] in it.
+pub(super) fn with_patch(text: &str, patch: u64) -> String {
+    let version = format!("{}{patch}", COMPATIBLE.trim_end_matches('x'));
+    text.replacen(VERSION, &version, 1)
+}
+
 /// The first incompatible version of the package in these names of interfaces. What does
 /// not look like a version is ignored.
 pub(super) fn other<'a>(names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {

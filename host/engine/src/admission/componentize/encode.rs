@@ -27,11 +27,14 @@ pub(super) fn robot_package(patch: u64) -> (Resolve, PackageId) {
     let package = resolve
         .push_str("robot.wit", ROBOT_WIT)
         .expect("the embedded WIT parses; a test holds it");
-    let name = &mut resolve.packages[package].name;
-    let version = name.version.as_mut();
-    version
+    let mut name = resolve.packages[package].name.clone();
+    resolve.package_names.swap_remove(&name);
+    name.version
+        .as_mut()
         .expect("the embedded WIT has a version; a test holds it")
         .patch = patch;
+    resolve.packages[package].name = name.clone();
+    resolve.package_names.insert(name, package);
     (resolve, package)
 }
 

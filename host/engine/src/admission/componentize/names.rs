@@ -5,7 +5,7 @@
 //! imports from `journal`. They mean the version of this host.
 
 use super::super::names::list_escaped;
-use super::super::version::{self, COMPATIBLE, VERSION};
+use super::super::version::{self, with_patch};
 use super::error::ComponentizeError;
 use super::module::Module;
 use super::preview1;
@@ -180,10 +180,4 @@ fn check_exports(module: &Module) -> Result<Names, ComponentizeError> {
         },
         exports: list_escaped(&module.exports),
     })
-}
-
-/// A name of the interface with another patch version in it.
-pub(super) fn with_patch(name: &str, patch: u64) -> String {
-    let version = format!("{}{patch}", COMPATIBLE.trim_end_matches('x'));
-    name.replacen(VERSION, &version, 1)
 }

@@ -12,10 +12,9 @@ use wit_component::{ComponentEncoder, StringEncoding, embed_component_metadata};
 use wit_parser::{Resolve, WorldId};
 
 use super::super::shell::{ADAPTER, ADAPTER_WIT, PREVIEW1, sections};
-use super::super::version;
+use super::super::version::{self, with_patch};
 use super::encode::{mismatch, robot_package};
 use super::error::ComponentizeError;
-use super::names::with_patch;
 
 /// The module name under which preview 1 is imported.
 pub(super) const MODULE: &str = "wasi_snapshot_preview1";

@@ -63,7 +63,7 @@ impl Console {
         while let Some(end) = rest.iter().position(|&byte| byte == b'\n') {
             let (line, after) = rest.split_at(end);
             self.add(stream, line, log);
-            self.log(stream, log);
+            self.log(stream, true, log);
             rest = after.get(1..).unwrap_or_default();
         }
         self.add(stream, rest, log);
@@ -80,7 +80,7 @@ impl Console {
     pub fn flush(&mut self, log: &mut impl Log) {
         for stream in [Stream::Output, Stream::Error] {
             if self.line(stream).length > 0 {
-                self.log(stream, log);
+                self.log(stream, true, log);
             }
         }
     }
@@ -102,24 +102,20 @@ impl Console {
         while !rest.is_empty() {
             rest = self.line(stream).fill(rest);
             if !rest.is_empty() {
-                self.log(stream, log);
+                self.log(stream, false, log);
             }
         }
     }
 
-    /// Logs the line of a stream and begins another. A character whose bytes are not all there
-    /// in a full line is left for the next one.
-    fn log(&mut self, stream: Stream, log: &mut impl Log) {
+    /// Logs the line of a stream and begins another. Of a line that goes on (`!is_all`), a
+    /// character whose bytes are not all there is left for the next one.
+    fn log(&mut self, stream: Stream, is_all: bool, log: &mut impl Log) {
         let line = match stream {
             Stream::Output => &mut self.output,
             Stream::Error => &mut self.error,
         };
         let bytes = &line.bytes[..line.length];
-        let whole = if line.length == LINE_BYTES_MAX {
-            boundary(bytes)
-        } else {
-            bytes.len()
-        };
+        let whole = if is_all { bytes.len() } else { boundary(bytes) };
         self.text.clear();
         self.text.push_lossy(&bytes[..whole]);
         log.line(stream, self.text.as_str());
