@@ -6,6 +6,8 @@
 /// The `wasmouse` binary.
 use wasmouse_tests::binary;
 
+/// The page of the binary interface and the C header.
+mod abi;
 /// What admission admits, compiled and loaded by the engine.
 mod admitted;
 /// The cache of compiled robots: damaged, unusable, writable by others.

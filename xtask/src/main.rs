@@ -26,7 +26,7 @@ enum Command {
         #[arg(long)]
         long: bool,
     },
-    /// Generate the SDK's bindings from wit/robot.wit.
+    /// Generate the SDK's bindings, wit/wasmouse.h and docs/ABI.md from wit/robot.wit.
     Bindings,
     /// Build the bundled robots into example-robots/prebuilt.
     Robots {

@@ -51,7 +51,8 @@ impl RobotSource {
         let name = Path::new(name).file_name().unwrap_or_default();
         let rest = name.to_str().and_then(|name| name.strip_prefix(&own));
         rest.is_some_and(|rest| {
-            let rest = rest.strip_prefix(".wasm").unwrap_or(rest);
+            let stripped = rest.strip_prefix(".wasm").or(rest.strip_prefix(".wat"));
+            let rest = stripped.unwrap_or(rest);
             rest.is_empty() || rest.starts_with(':')
         })
     }

@@ -59,8 +59,8 @@ const LISTED_MAX: u64 = 40;
 
 /// Run robots in mazes and print verdicts, scores and standings
 ///
-/// Names of bundled robots, files that end in .wasm, folders of them and robot
-/// projects are robots; everything else is a maze. Without a maze, the bundled
+/// Names of bundled robots, files that end in .wasm or .wat, folders of them and
+/// robot projects are robots; everything else is a maze. Without a maze, the bundled
 /// mazes are used. Every robot plays every maze, each match in a fresh sandbox.
 #[derive(clap::Args, Debug)]
 #[command(after_long_help = format!(

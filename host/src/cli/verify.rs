@@ -63,7 +63,7 @@ pub struct Args {
     /// Files written by `wasmouse run --json` or `-o`; - is standard input
     #[arg(value_name = "RESULT", required = true)]
     results: Vec<PathBuf>,
-    /// A robot file, or a folder with .wasm files
+    /// A robot file, or a folder with .wasm and .wat files
     #[arg(long = "robot", value_name = "FILE")]
     robots: Vec<PathBuf>,
     /// A maze file, or a folder, as in `wasmouse run`

@@ -31,6 +31,26 @@ pub fn admission(bytes: &[u8]) -> bool {
     true
 }
 
+/// A robot in text, with names, folded and plain instructions, and comments.
+#[cfg(test)]
+const TEXT: &str = r#";; a robot
+(module $robot (; that drives on ;)
+  (import "journal" "paint" (func $paint (param i32 i32 i32)))
+  (memory (export "memory") 1)
+  (data (i32.const 16) "\00\01\01")
+  (global $n (mut i32) (i32.const 0))
+  (func (export "start") (param i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i32 i64 i32))
+  (func (export "next_move") (param $left i32) (param i32 i32) (result i32)
+    (block $out
+      (br_if $out (local.get $left))
+      (call $paint (i32.const 0) (global.get $n) (i32.const 1)))
+    global.get $n
+    i32.const 1
+    i32.add
+    global.set $n
+    i32.const 16))
+"#;
+
 #[cfg(test)]
 pub(super) fn seeds() -> Vec<Vec<u8>> {
     use crate::bundled::bundled;
@@ -41,7 +61,14 @@ pub(super) fn seeds() -> Vec<Vec<u8>> {
         "(call $log (i32.const 1) (i32.const 16) (i32.const 3))",
     );
     let component = |module: &[u8]| crate::admission::componentize(module).expect("a robot");
-    let mut seeds = vec![component(&module), component(&logging), module, logging];
+    let text = TEXT.as_bytes().to_vec();
+    let mut seeds = vec![
+        component(&module),
+        component(&logging),
+        module,
+        logging,
+        text,
+    ];
     let smallest = bundled().iter().min_by_key(|robot| robot.component.len());
     seeds.extend(smallest.map(|robot| robot.component.to_vec()));
     seeds
