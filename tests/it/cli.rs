@@ -157,6 +157,7 @@ fn help_in_two_lengths() {
     for command in [
         "demo",
         "run",
+        "profile",
         "compare",
         "study",
         "verify",

@@ -2,6 +2,7 @@
 //! was in its code.
 
 use std::fs;
+use std::path::{Path, PathBuf};
 
 use insta::{Settings, assert_snapshot};
 use tempfile::TempDir;
@@ -77,8 +78,8 @@ fn a_match_is_explained_step_by_step() {
     for part in ["\nstart ", "-- speed run --", "reset", "\nfuel: "] {
         assert!(bundled.stdout.contains(part), "{part}: {}", bundled.stdout);
     }
-    let two = run(&folder, "run flood test_maze_01 test_maze_02 --explain");
-    assert_eq!(two.status.code(), Some(3));
+    let two = run(&folder, "run flood test_maze_01 tree-16 --explain");
+    assert_eq!(two.status.code(), Some(2));
     assert!(
         two.stderr.contains("--explain is about one match"),
         "{}",
@@ -111,4 +112,44 @@ fn what_a_robot_wrote_goes_with_its_fault() {
     // Records do not depend on it.
     let json = run(&folder, "run failing.wasm test_maze_01 --json").stdout;
     assert!(!json.contains("ValueError"), "{json}");
+}
+
+/// The files of a folder and what is in them.
+fn files(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        let bytes = fs::read(&path).expect("a file");
+        files.push((path, bytes));
+    }
+    files.sort();
+    files
+}
+
+/// Only the code of a large robot is kept for backtraces; a damaged entry changes nothing.
+#[test]
+fn backtraces_of_large_robots_are_compiled_once() {
+    let mut large = failing();
+    // A custom section of 2 MiB: its length in LEB128, then a name of one byte.
+    large.extend([0, 0x80, 0x80, 0x80, 0x01, 1, b'x']);
+    large.resize(large.len() + (2 << 20) - 2, 0);
+    let entries = |robot: &[u8]| {
+        let folder = folder();
+        fs::write(folder.path().join("failing.wasm"), robot).expect("a file");
+        let first = run(&folder, "run failing.wasm test_maze_01").stderr;
+        assert!(first.contains(": plan at offset"), "{first}");
+        let cache = folder.path().join("cache");
+        let kept = files(&cache);
+        assert_eq!(run(&folder, "run failing.wasm test_maze_01").stderr, first);
+        assert!(files(&cache) == kept, "nothing was compiled again");
+        for (path, mut bytes) in kept.clone() {
+            if let Some(last) = bytes.last_mut() {
+                *last ^= 1;
+            }
+            fs::write(path, bytes).expect("a file");
+        }
+        assert_eq!(run(&folder, "run failing.wasm test_maze_01").stderr, first);
+        kept.len()
+    };
+    assert_eq!(entries(&large), entries(&failing()) + 1);
 }

@@ -72,6 +72,8 @@ mod pointers;
 mod prebuilt;
 /// The check before compilation: limits, bombs, proposals.
 mod precheck;
+/// Profiles: sums, names, faults, workers.
+mod profile;
 /// Robot projects, and files of results.
 mod projects;
 /// The commands of the README.
@@ -113,6 +115,8 @@ mod untrusted_files;
 mod verdicts;
 /// `wasmouse verify`: the same, reformatted, changed, or from another version.
 mod verify;
+/// Robots with WASI inside: what each function answers, and what cannot be reached.
+mod wasi;
 /// The WIT against its history, and the SDK's bindings against the WIT.
 mod wit;
 /// A robot written with `wit-bindgen` alone.

@@ -12,4 +12,5 @@ pub mod module;
 pub mod program;
 pub mod slow;
 pub mod stored;
+pub mod wasi;
 pub mod wasm_target;

@@ -18,10 +18,15 @@ use crate::step::target_folder;
 /// Set to anything but the empty string, it makes a missing tool a failure.
 pub const REQUIRED_VARIABLE: &str = "WASMOUSE_REQUIRE_LANGUAGES";
 
+/// The folder with `package.json` and lock file for JavaScript on StarlingMonkey, which replace
+/// those of the example robot.
+pub const STARLINGMONKEY: &str = "tests/it/languages/starlingmonkey";
+
 /// What the projects in one language need.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Kit {
-    /// The language, as `wasmouse new --lang` takes it.
+    /// The language, as `wasmouse new --lang` takes it, or `starlingmonkey`: JavaScript with the
+    /// other engine, whose packages are in [`STARLINGMONKEY`].
     pub language: &'static str,
     tools: Tools,
 }
@@ -59,7 +64,7 @@ pub type Environment = Vec<(&'static str, OsString)>;
 
 impl Kit {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::new("c", ZIG),
         Self::new("cpp", ZIG),
         Self::new("zig", ZIG),
@@ -67,6 +72,7 @@ impl Kit {
         Self::new("wat", Tools::None),
         Self::new("javascript", Tools::Npm),
         Self::new("typescript", Tools::Npm),
+        Self::new("starlingmonkey", Tools::Npm),
         Self::new("python", COMPONENTIZE_PY),
         Self::new("go", GO),
     ];
@@ -123,6 +129,9 @@ impl Kit {
     }
 
     fn example(self, root: &Path) -> PathBuf {
+        if self.language == "starlingmonkey" {
+            return root.join(STARLINGMONKEY);
+        }
         root.join("example-robots/languages").join(self.language)
     }
 

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 pub mod bindings;
 pub mod corpus;
+pub mod costs;
 pub mod dist;
 pub mod fuzz;
 pub mod languages;
@@ -20,6 +21,7 @@ pub mod sources;
 pub mod step;
 pub mod validators;
 pub mod verify;
+pub mod wasi;
 
 /// The root folder of the repository that this program was compiled in.
 pub fn repository() -> PathBuf {

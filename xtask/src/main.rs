@@ -5,8 +5,8 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use xtask::{
-    bindings, corpus, dist, fuzz, languages, platforms, reference, repository, robots, validators,
-    verify,
+    bindings, corpus, costs, dist, fuzz, languages, platforms, reference, repository, robots,
+    validators, verify, wasi,
 };
 
 /// Automation for the wasmouse repository.
@@ -34,6 +34,12 @@ enum Command {
         #[arg(long)]
         check: bool,
     },
+    /// Build what keeps WASI inside of robots into host/engine/wasi/prebuilt.
+    Wasi {
+        /// Build nothing; list what is stale.
+        #[arg(long)]
+        check: bool,
+    },
     /// Play the hostile corpus and print the verdict of each case; see `--help`.
     #[command(disable_help_flag = true)]
     Corpus {
@@ -45,6 +51,13 @@ enum Command {
     #[command(disable_help_flag = true)]
     Reference {
         /// Arguments for the program `reference`.
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<OsString>,
+    },
+    /// Build a robot in every language and write the costs into docs/LANGUAGES.md; see `--help`.
+    #[command(disable_help_flag = true)]
+    Costs {
+        /// Arguments for the program `costs`.
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<OsString>,
     },
@@ -74,8 +87,11 @@ fn main() -> ExitCode {
         Command::Bindings => bindings::generate(&root),
         Command::Robots { check: false } => robots::rebuild(&root),
         Command::Robots { check: true } => robots::check(&root),
+        Command::Wasi { check: false } => wasi::rebuild(&root),
+        Command::Wasi { check: true } => wasi::check(&root),
         Command::Corpus { arguments } => corpus::run(&root, &arguments),
         Command::Reference { arguments } => reference::run(&root, &arguments),
+        Command::Costs { arguments } => costs::run(&root, &arguments),
         Command::CheckPlatforms => platforms::run(&root),
         Command::Dist(args) => dist::run(&root, &args),
         Command::Validators => validators::run(&root),

@@ -14,10 +14,10 @@ use wasmouse_core::game::SandboxLimits;
 
 use crate::error::{InfrastructureError, Withdrawal};
 
-/// Processor time of a match after which it is given up, by default and for [`MATCH_FUEL`]. All
-/// of that fuel lasts 2 s in a robot like flood and 25 s in work that takes ten times as long
-/// for its fuel; the rest is for slower machines. What reaches this is a robot that waits for
-/// memory all the time.
+/// Processor time of a match after which it is given up, by default and for the match fuel of the
+/// default limits. All of that fuel lasts 2 s in a robot like flood and 25 s in work that takes ten
+/// times as long for its fuel; the rest is for slower machines. What reaches this is a robot that
+/// waits for memory all the time.
 pub const MATCH_TIME_MAX: Duration = Duration::from_secs(60);
 
 /// The match fuel that default times are about: that of the default limits.
@@ -26,8 +26,9 @@ const MATCH_FUEL: u64 = 20_000_000_000;
 /// No default time of a match is longer.
 const FACTOR_MAX: u64 = 24 * 60;
 
-/// How many times [`MATCH_FUEL`] a match may use, rounded up. Default times are multiplied by it,
-/// so that a robot that uses all its fuel is never put off for its time. Range: 1 to 1440.
+/// How many times the match fuel of the default limits a match may use, rounded up. Default times
+/// are multiplied by it, so that a robot that uses all its fuel is never put off for its time.
+/// Range: 1 to 1440.
 pub const fn time_factor(limits: &SandboxLimits) -> u64 {
     match limits.match_fuel_max.div_ceil(MATCH_FUEL) {
         0 => 1,

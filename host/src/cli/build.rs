@@ -8,7 +8,7 @@ use std::thread;
 use std::time::Duration;
 
 use wasmouse_engine::Limits;
-use wasmouse_engine::admission::examine;
+use wasmouse_engine::admission::{BinaryKind, examine};
 
 use super::exit::Exit;
 use super::failure::Failure;
@@ -29,20 +29,22 @@ Examples:
   wasmouse build my-robot --watch      builds and plays again when a file changes
   wasmouse build module.wasm           wraps a core module of any language
   wasmouse build robot.wat             the same for WebAssembly text
+  wasmouse build component.wasm        puts what answers WASI into a component
 
 Rust: the wasm target is added with rustup if it is missing. If rustup cannot fetch it,
 a packaged compiler is used (Debian: rustc-web, rust-web-src, lld-22).
 Other languages: `wasmouse doctor` says what they need.";
 
-/// Build a robot project, a core module or WebAssembly text into a component
+/// Build a robot project, a core module, text or a component with WASI into a robot
 ///
 /// A project is compiled with the tools of its language, and NAME.wasm is written into its folder.
-/// For a core module FILE.wasm or text FILE.wat, FILE.component.wasm is written beside it. Then the robot plays a
-/// match in a known maze and one in a large maze, to show its fuel beside the limits.
+/// For a core module FILE.wasm or text FILE.wat, FILE.component.wasm is written beside it; for a
+/// component that imports WASI, FILE.robot.wasm, which has what answers WASI inside. Then the robot
+/// plays a match in a known maze and one in a large maze, to show its fuel beside the limits.
 #[derive(clap::Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
-    /// Robot project folder, a core module (.wasm) or WebAssembly text (.wat)
+    /// Robot project folder, a core module or component (.wasm), or WebAssembly text (.wat)
     #[arg(default_value = ".")]
     path: PathBuf,
     /// Output file for the component
@@ -101,7 +103,11 @@ impl Args {
                 .hint("give the folder of a robot project, a core module (.wasm) or text (.wat)")
             })?;
             let component = to_component(&module, &self.path)?;
-            (component, self.path.with_extension("component.wasm"))
+            let extension = match BinaryKind::of(&module) {
+                BinaryKind::Component => "robot.wasm",
+                _ => "component.wasm",
+            };
+            (component, self.path.with_extension(extension))
         };
         let file = self.output.as_deref().unwrap_or(&default_output);
         output::save(file, &component, Existing::Replace)?;

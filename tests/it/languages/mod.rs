@@ -4,8 +4,12 @@
 //! a line on stderr.
 
 mod broken;
+mod documentation;
+mod dynamic;
+mod dynamic_broken;
 mod native;
 mod prebuilt;
+mod vectors;
 
 use std::ffi::OsString;
 use std::fs;
@@ -14,7 +18,7 @@ use std::process::Command;
 
 use serde_json::Value;
 use tempfile::TempDir;
-use xtask::languages::{Environment, Kit};
+use xtask::languages::{Environment, Kit, STARLINGMONKEY};
 
 use crate::binary::{Ran, path, ran, stdout_of, wasmouse};
 
@@ -37,9 +41,25 @@ pub fn project(language: &'static str, test: &str) -> Option<Project> {
         environment,
         language,
     };
+    let is_other_engine = language == "starlingmonkey";
+    let lang = if is_other_engine {
+        "javascript"
+    } else {
+        language
+    };
     let mut new = wasmouse();
-    new.args(["new", NAME, "--lang", language]);
+    new.args(["new", NAME, "--lang", lang]);
     let printed = stdout_of(project.in_folder(&mut new, project.parent.path()));
+    if is_other_engine {
+        for file in ["package.json", "package-lock.json"] {
+            let from = xtask::repository().join(STARLINGMONKEY).join(file);
+            fs::copy(from, project.folder().join(file)).expect("a file of the engine");
+        }
+    }
+    // The tool of Python is on the search path already, and has nothing to install.
+    if language == "python" {
+        return Some(project);
+    }
     for line in printed.lines().map(str::trim) {
         let setup = line.strip_prefix('(').and_then(|it| it.strip_suffix(')'));
         if let Some(setup) = setup.and_then(|it| it.split_once(" && ")) {

@@ -147,9 +147,8 @@ impl Rejection {
                 "rebuild it with a released toolchain and without experimental proposals"
             }
             Self::UnknownImport(name) if name.starts_with("wasi:") => {
-                "robots have no clock, files, randomness or network: build for \
-                 `wasm32-unknown-unknown` instead of a WASI target, or stub WASI out \
-                 (`--stub-wasi` in componentize-py, `--backend-qjs-stub-wasi` in jco)"
+                "robots have no clock, files, randomness or network; `wasmouse build FILE.wasm` makes \
+                 a robot of a component with WASI: it answers WASI inside (docs/WASI.md)"
             }
             Self::UnknownImport(_) => {
                 "a robot may import the interface `journal` of `wit/robot.wit` and nothing else"

@@ -296,11 +296,15 @@ mod tests {
                     length: 4,
                     compile: true,
                     describe: false,
+                    backtraces: false,
                 },
             ),
             tagged(
                 5,
                 &BacktraceOrder {
+                    profile: None,
+                    robot: Digest::of(b"robot"),
+                    code: None,
                     rules: rules(),
                     limits,
                     maze: maze().identity_bytes(),

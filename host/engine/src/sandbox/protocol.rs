@@ -21,6 +21,7 @@ use super::role::SandboxStatus;
 use crate::admission::precheck::Shape;
 use crate::admission::{BinaryKind, Rejection, ResourceRequirements};
 use crate::limits::Limits;
+use crate::profile::{Expected, Profile};
 use crate::runtime::{Frame, engine_id};
 
 /// The largest frame, in bytes: a match of 10,000 steps with a full journal has less. A value
@@ -203,6 +204,8 @@ pub(super) struct CompileOrder {
     pub(super) compile: bool,
     /// Whether its world is wanted as WIT.
     pub(super) describe: bool,
+    /// Whether the code is for a backtrace worker.
+    pub(super) backtraces: bool,
 }
 
 /// What a file is, from a compile worker, after its [`Hello`].
@@ -234,7 +237,7 @@ pub(super) enum Compiled {
     Rejected(RejectionText),
 }
 
-/// The only frame to a backtrace worker; the file follows.
+/// The only frame to a backtrace worker; the file follows, or its code.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct BacktraceOrder {
     /// The rules of the match.
@@ -247,8 +250,21 @@ pub(super) struct BacktraceOrder {
     pub(super) seed: u64,
     /// The robot's variant.
     pub(super) variant: u32,
+    /// What the match is known to do, when a [`Profiled`] is wanted instead of a [`Backtrace`].
+    pub(super) profile: Option<Expected>,
+    /// The digest of the robot's file.
+    pub(super) robot: Digest,
+    /// The digest of its code, made for backtraces, when that follows instead of the file.
+    pub(super) code: Option<Digest>,
     /// Bytes that follow.
     pub(super) length: u64,
+}
+
+/// The fuel of a match by function, from a backtrace worker, after its [`Hello`].
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Profiled {
+    /// The profile, or why there is none.
+    pub(super) profile: Result<Profile, String>,
 }
 
 /// Where a robot fails, from a backtrace worker, after its [`Hello`].

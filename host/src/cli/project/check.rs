@@ -57,5 +57,5 @@ pub fn check(language: &Language, folder: &Path) -> Vec<(&'static str, Status)> 
 
 fn is_of_projects(tool: &Tool) -> bool {
     let is_local = |it: &Program| matches!(it, Program::Npm(_) | Program::Venv(_));
-    tool.programs.iter().all(is_local)
+    tool.programs.iter().any(is_local)
 }

@@ -96,7 +96,13 @@ fn modified(path: &Path) -> Option<SystemTime> {
 
 /// The files that the component of a project depends on.
 fn files(folder: &Path, language: &Language) -> Vec<PathBuf> {
-    let mut left: Vec<PathBuf> = language.sources.iter().map(|it| folder.join(it)).collect();
+    let mut left: Vec<PathBuf> = Vec::new();
+    for source in language.sources {
+        match source.strip_prefix('*') {
+            None => left.push(folder.join(source)),
+            Some(ending) => left.extend(files_ending_in(folder, ending)),
+        }
+    }
     let mut files = Vec::new();
     while let Some(path) = left.pop() {
         match fs::read_dir(&path) {
@@ -105,6 +111,12 @@ fn files(folder: &Path, language: &Language) -> Vec<PathBuf> {
         }
     }
     files
+}
+
+fn files_ending_in(folder: &Path, ending: &str) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let ends = |it: &fs::DirEntry| it.file_name().to_string_lossy().ends_with(ending);
+    entries.filter(ends).map(|it| it.path()).collect()
 }
 
 #[cfg(test)]

@@ -27,7 +27,8 @@ pub struct Language {
     /// Compiles a project to a core module or a component, which may import WASI. What the tools
     /// print goes to stderr as it comes.
     pub compile: fn(&Project, &Options) -> Result<Vec<u8>, Failure>,
-    /// Files and folders of a project that its component depends on.
+    /// Files and folders of a project that its component depends on. `*.py` stands for all files
+    /// with that ending that are not in a folder of their own.
     pub sources: &'static [&'static str],
     /// What has to be installed to build its projects.
     pub tools: &'static [&'static Tool],

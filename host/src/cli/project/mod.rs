@@ -7,6 +7,7 @@
 
 mod check;
 mod component;
+mod files;
 mod find;
 mod language;
 mod languages;

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use crate::cli::failure::Failure;
-use crate::cli::output;
+use crate::cli::output::{self, message};
 use crate::report::text::{Text, text};
 
 /// A program that is needed to build projects.
@@ -31,10 +31,6 @@ pub struct Tool {
 
 /// A way to start a tool.
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(
-    not(test),
-    expect(dead_code, reason = "languages that need them are about to be added")
-)]
 pub enum Program {
     /// A program on the search path.
     OnPath(&'static str),
@@ -179,14 +175,40 @@ impl FoundTool {
     ///
     /// When it cannot be started or reports an error.
     pub fn run(&self, mut command: Command, purpose: &Text) -> Result<(), Failure> {
-        let name = self.tool.name;
         let status = command
             .stdout(output::child_stdout())
             .status()
-            .map_err(|error| Failure::input(text!("failed to run {}: {}", name, error)))?;
+            .map_err(|error| self.not_started(&error))?;
         if status.success() {
             return Ok(());
         }
+        Err(self.failed(purpose))
+    }
+
+    /// Runs a command made by [`FoundTool::command`] whose messages need work before people see
+    /// them: keeps them, and returns what it printed if it reports an error.
+    ///
+    /// # Errors
+    ///
+    /// When it cannot be started.
+    pub fn run_quietly(&self, mut command: Command) -> Result<Result<(), String>, Failure> {
+        let output = command.output().map_err(|error| self.not_started(&error))?;
+        if output.status.success() {
+            return Ok(Ok(()));
+        }
+        let printed = [output.stdout, output.stderr].concat();
+        Ok(Err(String::from_utf8_lossy(&printed).into_owned()))
+    }
+
+    /// Like [`FoundTool::failed`], after showing what the tool has printed.
+    pub fn failed_with(&self, purpose: &Text, printed: &str) -> Failure {
+        message!("{}", Text::of_lines(printed.trim_end()));
+        self.failed(purpose)
+    }
+
+    /// What is said when it has reported an error, after its own messages.
+    fn failed(&self, purpose: &Text) -> Failure {
+        let name = self.tool.name;
         let mut hint = format!("the messages of {name} are above");
         if let Some(version) = self.version.filter(|it| *it != self.tool.tested) {
             use std::fmt::Write as _;
@@ -197,13 +219,17 @@ impl FoundTool {
             )
             .expect("writing to a string cannot fail");
         }
-        Err(Failure::input(text!("{} failed to {}", name, purpose)).hint(hint))
+        Failure::input(text!("{} failed to {}", name, purpose)).hint(hint)
+    }
+
+    fn not_started(&self, error: &std::io::Error) -> Failure {
+        Failure::input(text!("failed to run {}: {}", self.tool.name, error))
     }
 }
 
 impl Version {
     /// The first version number in what a tool prints: numbers with dots between them.
-    fn find(text: &str) -> Option<Self> {
+    pub fn find(text: &str) -> Option<Self> {
         text.split(|c: char| !c.is_ascii_digit() && c != '.')
             .find_map(Self::parse)
     }

@@ -1,7 +1,7 @@
 //! Modules that become robots, and those that cannot.
 
 use proptest::prelude::*;
-use wasmparser::{Parser, Payload};
+use wasmparser::{Parser, Payload, Validator};
 use wit_component::{StringEncoding, embed_component_metadata};
 
 use super::super::binary::BinaryKind;
@@ -106,11 +106,43 @@ fn refusals_say_what_is_missing() {
 
 #[test]
 fn refusals_name_a_foreign_import() {
-    let wasi = r#"(import "wasi_snapshot_preview1" "fd_write"
+    let wasi = r#"(import "wasi_unstable" "fd_write"
         (func (param i32 i32 i32 i32) (result i32)))"#;
     let module = module(&[wasi, START, NEXT, MEMORY]);
-    check_refused(&module, "imports `fd_write` from `wasi_snapshot_preview1`");
+    check_refused(&module, "imports `fd_write` from `wasi_unstable`");
     check_refused(&typed(&module), "imports `fd_write`");
+}
+
+/// Imports of preview 1 that do not exist, or have another type.
+#[test]
+fn preview_1_is_answered_as_far_as_it_goes() {
+    let with = |name: &str, parameters: &str| {
+        let import = format!(
+            r#"(import "wasi_snapshot_preview1" "{name}" (func (param {parameters}) (result i32)))"#
+        );
+        module(&[&import, START, NEXT, MEMORY])
+    };
+    let component = componentize(&with("fd_close", "i32")).unwrap();
+    assert_eq!(
+        export_names(&component),
+        ["wasmouse:robot/controller@0.2.0"]
+    );
+    check_refused(&with("fd_fly", "i32"), "imports `fd_fly` from");
+    check_refused(&with("fd_close", "i64"), "fd_close");
+}
+
+/// The adapter has the names of the module's version.
+#[test]
+fn preview_1_is_answered_for_other_patch_versions() {
+    let text = r#"(import "wasi_snapshot_preview1" "sched_yield" (func (result i32)))
+        (import "wasmouse:robot/journal@0.2.17" "log" (func (param i32 i32 i32)))"#;
+    let [start, next] = [START, NEXT].map(|text| text.replace("@0.2.0", "@0.2.17"));
+    let component = componentize(&module(&[text, &start, &next, MEMORY])).unwrap();
+    assert_eq!(
+        export_names(&component),
+        ["wasmouse:robot/controller@0.2.0"]
+    );
+    Validator::new().validate_all(&component).unwrap();
 }
 
 #[test]

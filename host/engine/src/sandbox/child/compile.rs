@@ -13,7 +13,7 @@ use super::setup::sandboxed;
 use crate::admission::{Rejection, examine, world};
 use crate::error::InfrastructureError;
 use crate::limits::Limits;
-use crate::runtime::new_compiler;
+use crate::runtime::{new_backtrace_compiler, new_compiler};
 
 /// Stack of the threads that read and compile: nested things recurse.
 pub(super) const STACK_BYTES: usize = 16 << 20;
@@ -31,7 +31,13 @@ pub fn main() -> io::Result<()> {
         return Ok(());
     };
     let file = read_exactly(&mut pipes.from, order.length)?;
-    enter(&order.limits.clone(), move |engine, sandbox| {
+    let limits = order.limits;
+    let is_for_backtraces = order.backtraces;
+    let engine = move || match is_for_backtraces {
+        true => new_backtrace_compiler(&limits),
+        false => new_compiler(&limits),
+    };
+    enter_with(engine, move |engine, sandbox| {
         let build = protocol::build();
         protocol::write(&mut pipes.to, &Hello { build, sandbox })?;
         // The supervisor then knows that the worker had begun, whatever happens next.
@@ -53,10 +59,21 @@ pub fn enter<W>(limits: &Limits, work: W) -> io::Result<()>
 where
     W: FnOnce(&Engine, SandboxStatus) -> io::Result<()> + Send + 'static,
 {
+    enter_with(|| new_compiler(limits), work)
+}
+
+/// [`enter`] with an engine that is made before this process is sandboxed.
+fn enter_with<W>(
+    engine: impl FnOnce() -> Result<Engine, InfrastructureError>,
+    work: W,
+) -> io::Result<()>
+where
+    W: FnOnce(&Engine, SandboxStatus) -> io::Result<()> + Send + 'static,
+{
     privileges::set_limits(Role::Compile);
     let isolation = privileges::isolate()?;
     let failed = |error: InfrastructureError| io::Error::other(error.to_string());
-    let engine = new_compiler(limits).map_err(failed)?;
+    let engine = engine().map_err(failed)?;
     sandboxed(
         (Role::Compile, isolation),
         STACK_BYTES,

@@ -109,6 +109,7 @@ impl Admitter<'_> {
         let wanted = Wanted {
             code: false,
             description: true,
+            backtraces: false,
         };
         let temporary = || Destination::temporary();
         let findings = match self.compiler().examine(bytes, wanted, &temporary)? {
@@ -152,6 +153,7 @@ impl Admitter<'_> {
         let wanted = Wanted {
             code: true,
             description: false,
+            backtraces: false,
         };
         let compiler = self.compiler();
         let uncached = |cache: CacheUse| {

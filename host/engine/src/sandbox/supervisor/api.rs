@@ -6,13 +6,15 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Duration;
 
+use serde::de::DeserializeOwned;
 use wasmouse_core::game::{Fault, Ruleset};
-use wasmouse_core::record::{MatchRecord, MatchSpec};
+use wasmouse_core::record::{FuelUse, MatchRecord, MatchSpec};
 use wasmtime::Engine;
 
-use super::super::protocol::{Backtrace, BacktraceOrder};
+use super::super::protocol::{Backtrace, BacktraceOrder, Profiled};
 use super::super::role::{COMPILE_CPU_SECONDS, Role, SandboxStatus};
 use super::admit::Admitter;
+use super::backtraces::Backtraces;
 #[cfg(not(windows))]
 use super::group::Groups;
 #[cfg(windows)]
@@ -25,8 +27,11 @@ use super::robot::SandboxedRobot;
 use crate::admission::{Inspection, Rejection};
 use crate::error::InfrastructureError;
 use crate::limits::Limits;
+use crate::profile::{Expected, Profile};
 use crate::runner::Recording;
-use crate::runtime::{Cache, FRAMES_MAX, Frame, new_compiler};
+use crate::runtime::{
+    Cache, CompiledCode, FRAMES_MAX, Frame, new_backtrace_compiler, new_compiler,
+};
 
 /// How long a backtrace may take on the wall clock.
 const BACKTRACE_TIME_MAX: Duration = Duration::from_secs(2 * COMPILE_CPU_SECONDS);
@@ -139,6 +144,50 @@ impl Supervisor {
         spec: &MatchSpec,
         fault: &Fault,
     ) -> Result<Option<Vec<Frame>>, InfrastructureError> {
+        let engine = new_backtrace_compiler(&self.pool.limits)?;
+        let compiled = Backtraces::new(&self.pool, self.cache.as_ref(), &engine, spec.key.robot);
+        if let Some(code) = compiled.code(file)? {
+            let answer = self.play_apart(Sent::Code(&code), spec, None);
+            match answer.map(|it| frames_of(it, fault)) {
+                Ok(Some(frames)) => return Ok(Some(frames)),
+                Err(InfrastructureError::Cancelled) => return Err(InfrastructureError::Cancelled),
+                // The entry may be damaged; the worker gets the file instead.
+                Ok(None) | Err(_) => compiled.forget(),
+            }
+        }
+        let answer = self.play_apart(Sent::File(file), spec, None)?;
+        Ok(frames_of(answer, fault))
+    }
+
+    /// The fuel of that match by function; the inner error says why there is no profile. `file` is
+    /// what was admitted, `fuel` what the match is known to use.
+    ///
+    /// # Errors
+    ///
+    /// As [`Supervisor::backtrace`].
+    pub(crate) fn profile(
+        &self,
+        file: &[u8],
+        spec: &MatchSpec,
+        expected: &Expected,
+        fuel: FuelUse,
+    ) -> Result<Result<Profile, String>, InfrastructureError> {
+        let Profiled { profile } =
+            self.play_apart(Sent::File(file), spec, Some(expected.clone()))?;
+        let fuel = fuel.start.saturating_add(fuel.steps);
+        Ok(profile.and_then(|it| {
+            let checked = it.checked(fuel);
+            checked.ok_or_else(|| "the worker reported a profile that cannot be true".to_owned())
+        }))
+    }
+
+    /// Has a backtrace worker play a match, and returns its answer.
+    fn play_apart<T: DeserializeOwned>(
+        &self,
+        sent: Sent<'_>,
+        spec: &MatchSpec,
+        profile: Option<Expected>,
+    ) -> Result<T, InfrastructureError> {
         let mut process = Process::start(&self.pool.starter, Role::Backtrace)?;
         let order = BacktraceOrder {
             rules: Ruleset::clone(&spec.rules),
@@ -146,29 +195,32 @@ impl Supervisor {
             maze: spec.maze.identity_bytes(),
             seed: spec.key.seed,
             variant: spec.key.variant,
-            length: u64::try_from(file.len()).unwrap_or(u64::MAX),
+            profile,
+            robot: spec.key.robot,
+            code: match sent {
+                Sent::File(_) => None,
+                Sent::Code(code) => Some(code.digest),
+            },
+            length: match sent {
+                Sent::File(file) => u64::try_from(file.len()).unwrap_or(u64::MAX),
+                Sent::Code(code) => code.length,
+            },
         };
-        let backtrace = process.exchange(Limit::wall(BACKTRACE_TIME_MAX), |talk| {
+        let answer = process.exchange(Limit::wall(BACKTRACE_TIME_MAX), |talk| {
             talk.send(&order)?;
-            talk.writer().write_all(file)?;
+            match sent {
+                Sent::File(file) => talk.writer().write_all(file)?,
+                Sent::Code(code) => code.send(talk.writer())?,
+            }
             talk.flush()?;
             let sandbox = talk.greet()?;
             self.pool.starter.check(sandbox).map_err(io::Error::other)?;
-            talk.receive::<Backtrace>()
+            talk.receive::<T>()
         });
-        // A backtrace is optional: whatever goes wrong here, the verdict stands.
-        let backtrace = backtrace.map_err(|error| InfrastructureError::Worker {
+        // Both are optional: whatever goes wrong here, the verdict stands.
+        answer.map_err(|error| InfrastructureError::Worker {
             role: Role::Backtrace.name(),
             reason: process.reap(&error).to_string(),
-        })?;
-        Ok(match backtrace {
-            Backtrace {
-                fault: Some((kind, frames)),
-            } if kind == fault.kind => {
-                let frames = frames.into_iter().take(FRAMES_MAX);
-                Some(frames.map(Frame::checked).collect())
-            }
-            _ => None,
         })
     }
 
@@ -179,4 +231,20 @@ impl Supervisor {
             engine: &self.engine,
         }
     }
+}
+
+/// What a backtrace worker gets of a robot.
+#[derive(Clone, Copy)]
+enum Sent<'a> {
+    /// Its file, to be compiled.
+    File(&'a [u8]),
+    /// Its code.
+    Code(&'a CompiledCode),
+}
+
+/// The frames of an answer, if the match ended in that kind of fault again.
+fn frames_of(answer: Backtrace, fault: &Fault) -> Option<Vec<Frame>> {
+    let (kind, frames) = answer.fault?;
+    let frames = frames.into_iter().take(FRAMES_MAX);
+    (kind == fault.kind).then(|| frames.map(Frame::checked).collect())
 }

@@ -30,6 +30,8 @@ pub(super) struct Wanted {
     pub(super) code: bool,
     /// Its world as WIT.
     pub(super) description: bool,
+    /// Whether the code is for a backtrace worker.
+    pub(super) backtraces: bool,
 }
 
 /// Everything that a compile worker reported about a file.
@@ -124,6 +126,7 @@ impl Compiler<'_> {
             length: u64::try_from(file.len()).unwrap_or(u64::MAX),
             compile: wanted.code,
             describe: wanted.description,
+            backtraces: wanted.backtraces,
         })?;
         talk.writer().write_all(file)?;
         talk.flush()?;

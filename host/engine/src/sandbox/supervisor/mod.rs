@@ -2,6 +2,7 @@
 
 mod admit;
 mod api;
+mod backtraces;
 pub(super) mod check;
 mod clock;
 mod compiler;

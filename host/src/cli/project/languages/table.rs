@@ -1,6 +1,6 @@
 //! [`LANGUAGES`]: the languages that robots are written in.
 
-use super::{assemblyscript, c, cpp, rust, wat, zig};
+use super::{assemblyscript, c, cpp, go, node, python, rust, wat, zig};
 use crate::cli::project::language::Language;
 
 /// All of them, in the order in which projects are recognised: those with an unmistakable
@@ -11,5 +11,10 @@ pub const LANGUAGES: &[&Language] = &[
     &zig::LANGUAGE,
     &c::LANGUAGE,
     &cpp::LANGUAGE,
+    &go::LANGUAGE,
+    &python::LANGUAGE,
+    // Before JavaScript, whose projects have the same files but one.
+    &node::TYPESCRIPT,
+    &node::JAVASCRIPT,
     &wat::LANGUAGE,
 ];
