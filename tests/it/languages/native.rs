@@ -138,3 +138,15 @@ fn wat_drives_as_the_wall_follower() {
     );
     check_fault(&project, "the wall follower has the variants 0 and 1");
 }
+
+/// The templates have the header that is generated from the WIT.
+#[test]
+fn templates_have_the_header_of_the_interface() {
+    let root = xtask::repository();
+    let header = fs::read_to_string(root.join("wit/wasmouse.h")).expect("the header");
+    for language in ["c", "cpp"] {
+        let copy = format!("example-robots/languages/{language}/wasmouse/wasmouse.h");
+        let text = fs::read_to_string(root.join(&copy)).expect("a copy");
+        assert!(text == header, "copy wit/wasmouse.h to {copy}");
+    }
+}

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use xtask::sources::sha256;
 
-use crate::binary::{stdout_of, wasmouse};
+use crate::binary::{ran, wasmouse};
 
 /// A prebuilt robot has less than that. Unit: bytes.
 const SIZE_BYTES_MAX: usize = 100_000;
@@ -105,7 +105,7 @@ fn prebuilt_robots_are_those_of_the_manifest_and_drive_as_the_bundled_ones() {
         let mut command = wasmouse();
         command.arg("run").arg(&path).arg(bundled);
         command.args(["test_maze_01", "gen:braid:16:1..=4", "--json"]);
-        let results: Value = serde_json::from_str(&stdout_of(&mut command)).expect("JSON");
+        let results: Value = serde_json::from_str(&ran(&mut command).stdout).expect("JSON");
         let matches = results["matches"].as_array().expect("matches");
         assert_eq!(matches.len(), 10);
         for one in matches {

@@ -1,17 +1,7 @@
-// The interface in WebAssembly: exports what the host calls, imports the journal. Numbers only; an
-// action is three bytes in memory: its kind, the turn, the advance.
+// The robot as the host sees it: wasmouse.h, which is generated from the interface, has the exports
+// and imports, and this file has what the robot calls them.
 #include "wasmouse/robot.hpp"
-
-#define EXPORT(name) \
-  extern "C" __attribute__((export_name("wasmouse:robot/controller@0.2.0#" name)))
-#define JOURNAL(name) \
-  extern "C" __attribute__((import_module("wasmouse:robot/journal@0.2.0"), import_name(name)))
-
-JOURNAL("log") void import_log(uint32_t level, const char *text, size_t bytes);
-JOURNAL("paint") void import_paint(uint32_t x, uint32_t y, uint32_t color);
-JOURNAL("label") void import_label(uint32_t x, uint32_t y, const char *text, size_t bytes);
-JOURNAL("wall") void import_wall(uint32_t x, uint32_t y, uint32_t side, uint32_t belief);
-JOURNAL("panic") void import_panic(const char *text, size_t bytes);
+#include "wasmouse/wasmouse.h"
 
 #ifndef __wasi__
 // Runs the constructors of global objects; the linker makes it.
@@ -28,58 +18,46 @@ extern "C" void __cxa_pure_virtual() {
 }
 #endif
 
-EXPORT("start")
-void start(uint32_t dimension, uint32_t start_x, uint32_t start_y, uint32_t goal_x, uint32_t goal_y,
-           uint32_t goal_width, uint32_t goal_height, uint32_t budget, uint32_t budget_scope,
-           uint32_t longest_move, uint32_t units_per_cell, uint32_t exploration_divisor,
-           uint64_t seed, uint32_t variant) {
+static void on_start(const wm_briefing *told) {
 #ifndef __wasi__
   __wasm_call_ctors();
 #endif
   wasmouse::start_robot({
-      .dimension = dimension,
-      .start = {start_x, start_y},
-      .goal = {{goal_x, goal_y}, goal_width, goal_height},
-      .budget = budget,
-      .budget_scope = wasmouse::BudgetScope(budget_scope),
-      .longest_move = longest_move,
-      .units_per_cell = units_per_cell,
-      .exploration_divisor = exploration_divisor,
-      .seed = seed,
-      .variant = variant,
+      .dimension = told->dimension,
+      .start = {told->start.x, told->start.y},
+      .goal = {{told->goal.origin.x, told->goal.origin.y}, told->goal.width, told->goal.height},
+      .budget = told->budget,
+      .budget_scope = wasmouse::BudgetScope(told->budget_scope),
+      .longest_move = told->longest_move,
+      .units_per_cell = told->units_per_cell,
+      .exploration_divisor = told->exploration_divisor,
+      .seed = told->seed,
+      .variant = told->variant,
   });
 }
 
-EXPORT("next-move")
-const uint8_t *next_move(uint32_t left, uint32_t front, uint32_t right) {
-  static uint8_t answer[3];
-  wasmouse::Action action = wasmouse::next_move_of_robot({left, front, right});
-  answer[0] = uint8_t(action.kind);
-  answer[1] = uint8_t(action.turn);
-  answer[2] = uint8_t(action.advance);
-  return answer;
+static wm_action on_move(wm_sensors readings) {
+  auto action = wasmouse::next_move_of_robot({readings.left, readings.front, readings.right});
+  if (action.kind == wasmouse::Action::Kind::reset) return wm_reset();
+  return wm_move(wm_turn(action.turn), action.advance);
 }
 
-static size_t length_of(const char *text) {
-  size_t length = 0;
-  while (text[length] != '\0') length++;
-  return length;
-}
+WM_ROBOT(on_start, on_move);
 
 void wasmouse::log(Level level, const char *message) {
-  import_log(uint32_t(level), message, length_of(message));
+  wm_journal_log(wm_level(level), message, wm_length(message));
 }
 
 void wasmouse::paint(Cell cell, Color color) {
-  import_paint(cell.x, cell.y, uint32_t(color));
+  wm_journal_paint(cell.x, cell.y, wm_color(color));
 }
 
 void wasmouse::label(Cell cell, const char *text) {
-  import_label(cell.x, cell.y, text, length_of(text));
+  wm_journal_label(cell.x, cell.y, text, wm_length(text));
 }
 
 void wasmouse::believe(Cell cell, Heading side, Wall wall) {
-  import_wall(cell.x, cell.y, uint32_t(side), uint32_t(wall));
+  wm_journal_wall(cell.x, cell.y, wm_heading(side), wm_belief(wall));
 }
 
 void wasmouse::panic_at(const char *message, const char *file, int line) {
@@ -93,6 +71,5 @@ void wasmouse::panic_at(const char *message, const char *file, int line) {
   const char *parts[] = {message, " (", file, ":", number, ")"};
   for (const char *part : parts)
     for (; *part != '\0' && length < sizeof buffer; part++) buffer[length++] = *part;
-  import_panic(buffer, length);
-  __builtin_trap();
+  wm_journal_panic(buffer, length);
 }

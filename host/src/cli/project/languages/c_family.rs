@@ -80,7 +80,17 @@ impl Dialect {
             .current_dir(&project.folder);
         compiler
             .run(command, &text!("compile `{}`", project.name))
-            .map_err(|failure| self.explain(failure, target, project, &sources))?;
+            .map_err(|failure| {
+                let failure = if is_clang {
+                    failure.hint(
+                        "the messages of clang are above; if it could not run the linker, \
+                         install wasm-ld (on Debian: apt-get install lld-22)",
+                    )
+                } else {
+                    failure
+                };
+                self.explain(failure, target, project, &sources)
+            })?;
         fs::read(&module).map_err(|error| {
             Failure::input(text!("the compiler wrote no module: {}", error))
                 .hint(text!("look for flags such as `-c` in {}", FLAGS_FILE))

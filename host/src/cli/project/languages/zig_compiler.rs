@@ -32,7 +32,7 @@ pub static ZIG_CC: Tool = Tool {
     oldest: Version(0, 14, 0),
     tested: Version(0, 17, 1),
     install: "python3 -m pip install ziglang==0.17.1\n\
-              (clang 17 or later with wasm-ld will do as well)",
+              (clang 20 or later with wasm-ld will do as well)",
 };
 
 /// Clang, with the linker for WebAssembly, under the names of Debian and of LLVM itself.
@@ -42,13 +42,11 @@ pub static CLANG: Tool = Tool {
         Program::OnPath("clang-22"),
         Program::OnPath("clang-21"),
         Program::OnPath("clang-20"),
-        Program::OnPath("clang-19"),
-        Program::OnPath("clang-18"),
-        Program::OnPath("clang-17"),
         Program::OnPath("clang"),
     ],
     version_arguments: &["--version"],
-    oldest: Version(17, 0, 0),
+    // Earlier ones call `memcpy` and `memset`, which no library has here.
+    oldest: Version(20, 0, 0),
     tested: Version(22, 1, 8),
     install: "apt-get install --no-install-recommends clang-22 lld-22",
 };
