@@ -11,6 +11,9 @@ use std::{env, fs};
 /// The folder with an example robot for each language but Rust.
 const LANGUAGES: &str = "example-robots/languages";
 
+/// The folder in there that is no example robot: the components of those that are small.
+const PREBUILT: &str = "prebuilt";
+
 /// What is left in an example robot's folder by building it, and is no part of a new project.
 const BUILT: [&str; 9] = [
     "node_modules",
@@ -59,7 +62,7 @@ fn languages(folder: &Path) -> String {
     let entries = fs::read_dir(folder).expect("a folder of the repository");
     let mut folders: Vec<PathBuf> = entries
         .map(|entry| entry.expect("a readable folder").path())
-        .filter(|path| path.is_dir())
+        .filter(|path| path.is_dir() && !path.ends_with(PREBUILT))
         .collect();
     folders.sort();
     let mut table_of_tables = "&[\n".to_owned();

@@ -19,8 +19,8 @@ use wasmouse_core::record::MatchSpec;
 use wasmouse_engine::admission::{Inspection, Rejection};
 use wasmouse_engine::bundled;
 use wasmouse_engine::{
-    AdmittedRobot, DetailedMatch, Executor, Frame, InProcess, InfrastructureError, Limits, Sink,
-    Withdrawal,
+    AdmittedRobot, DetailedMatch, Executor, Frame, InProcess, InfrastructureError, Limits, Profile,
+    Sink, Withdrawal,
 };
 
 use crate::pointers::objects;
@@ -85,6 +85,16 @@ impl Executor for Broken {
         fault: &Fault,
     ) -> Result<Option<Vec<Frame>>, InfrastructureError> {
         self.0.backtrace(robot, file, spec, fault)
+    }
+
+    fn profile(
+        &self,
+        robot: &AdmittedRobot,
+        file: &[u8],
+        spec: &MatchSpec,
+        played: &DetailedMatch,
+    ) -> Result<Result<Profile, String>, InfrastructureError> {
+        self.0.profile(robot, file, spec, played)
     }
 }
 

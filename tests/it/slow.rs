@@ -22,7 +22,7 @@ use wasmouse_engine::admission::{Inspection, Rejection};
 use wasmouse_engine::bundled::find;
 use wasmouse_engine::{
     AdmittedRobot, Control, DetailedMatch, Executor, Frame, InProcess, InfrastructureError, Limits,
-    Sandboxed, Sink as MatchSink, Withdrawal,
+    Profile, Sandboxed, Sink as MatchSink, Withdrawal,
 };
 use wasmouse_tests::slow::pointer_chaser;
 
@@ -176,6 +176,16 @@ impl Executor for Noting {
         fault: &Fault,
     ) -> Result<Option<Vec<Frame>>, InfrastructureError> {
         self.executor.backtrace(robot, file, spec, fault)
+    }
+
+    fn profile(
+        &self,
+        robot: &AdmittedRobot,
+        file: &[u8],
+        spec: &MatchSpec,
+        played: &DetailedMatch,
+    ) -> Result<Result<Profile, String>, InfrastructureError> {
+        self.executor.profile(robot, file, spec, played)
     }
 }
 

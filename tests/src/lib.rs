@@ -1,6 +1,7 @@
 //! What the end-to-end tests in `it/` and the program `corpus` share: the `wasmouse` binary,
 //! small robots in text, the hostile corpus, contests for stores, and the generator of the SDK's bindings.
 
+pub mod abi;
 pub mod binary;
 pub mod bindings;
 pub mod bombs;
@@ -11,4 +12,5 @@ pub mod module;
 pub mod program;
 pub mod slow;
 pub mod stored;
+pub mod wasi;
 pub mod wasm_target;

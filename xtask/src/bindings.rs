@@ -1,4 +1,5 @@
-//! `cargo xtask bindings`: generates the SDK's bindings from `wit/robot.wit`.
+//! `cargo xtask bindings`: generates from `wit/robot.wit` the SDK's bindings, the C header, and the
+//! page of the binary interface.
 //!
 //! The generator is a program of the tests, because it has dependencies that this crate must
 //! not have.

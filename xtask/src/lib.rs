@@ -21,6 +21,7 @@ pub mod sources;
 pub mod step;
 pub mod validators;
 pub mod verify;
+pub mod wasi;
 
 /// The root folder of the repository that this program was compiled in.
 pub fn repository() -> PathBuf {

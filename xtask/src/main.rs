@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use xtask::{
     bindings, corpus, costs, dist, fuzz, languages, platforms, reference, repository, robots,
-    validators, verify,
+    validators, verify, wasi,
 };
 
 /// Automation for the wasmouse repository.
@@ -26,11 +26,17 @@ enum Command {
         #[arg(long)]
         long: bool,
     },
-    /// Generate the SDK's bindings from wit/robot.wit.
+    /// Generate the SDK's bindings, wit/wasmouse.h and docs/ABI.md from wit/robot.wit.
     Bindings,
     /// Build the bundled robots into example-robots/prebuilt.
     Robots {
         /// Build nothing; list which prebuilt robots are stale.
+        #[arg(long)]
+        check: bool,
+    },
+    /// Build what keeps WASI inside of robots into host/engine/wasi/prebuilt.
+    Wasi {
+        /// Build nothing; list what is stale.
         #[arg(long)]
         check: bool,
     },
@@ -81,6 +87,8 @@ fn main() -> ExitCode {
         Command::Bindings => bindings::generate(&root),
         Command::Robots { check: false } => robots::rebuild(&root),
         Command::Robots { check: true } => robots::check(&root),
+        Command::Wasi { check: false } => wasi::rebuild(&root),
+        Command::Wasi { check: true } => wasi::check(&root),
         Command::Corpus { arguments } => corpus::run(&root, &arguments),
         Command::Reference { arguments } => reference::run(&root, &arguments),
         Command::Costs { arguments } => costs::run(&root, &arguments),

@@ -61,6 +61,30 @@ pub fn sources_sha256(root: &Path, name: &str) -> io::Result<String> {
     Ok(hexadecimal(&hash.finalize()))
 }
 
+/// The hash of files, and of all files in folders: lowercase hexadecimal SHA-256. Those that
+/// do not exist are left out.
+///
+/// # Errors
+///
+/// When a file cannot be read.
+pub fn files_sha256(root: &Path, paths: &[&Path]) -> io::Result<String> {
+    let mut files = Vec::new();
+    for &path in paths {
+        if root.join(path).is_dir() {
+            collect(root, path, &mut files)?;
+        } else if root.join(path).exists() {
+            files.push(path.to_owned());
+        }
+    }
+    files.sort();
+    let mut hash = Sha256::new();
+    for file in files {
+        let label = file.to_string_lossy().replace('\\', "/");
+        absorb(&mut hash, &label, &fs::read(root.join(&file))?);
+    }
+    Ok(hexadecimal(&hash.finalize()))
+}
+
 /// Lowercase hexadecimal SHA-256 of `bytes`.
 pub fn sha256(bytes: &[u8]) -> String {
     hexadecimal(&Sha256::digest(bytes))

@@ -3,7 +3,7 @@ const std = @import("std");
 
 pub fn build(b: *std.Build) void {
     // Safety checks stay on: a mistake ends the match with a message instead of nonsense.
-    const optimize = b.standardOptimizeOption(.{ .preferred_optimize_mode = .ReleaseSafe });
+    const optimize = b.option(std.builtin.Optimize, "optimize", "Default: safe") orelse .safe;
 
     const wasm = b.resolveTargetQuery(.{ .cpu_arch = .wasm32, .os_tag = .freestanding });
     const exe = b.addExecutable(.{
@@ -15,7 +15,7 @@ pub fn build(b: *std.Build) void {
     b.installArtifact(exe);
 
     const tests = b.addTest(.{
-        .root_module = robotModule(b, "src/test.zig", b.graph.host, .Debug),
+        .root_module = robotModule(b, "src/test.zig", b.graph.host, .debug),
     });
     const test_step = b.step("test", "Play a maze");
     test_step.dependOn(&b.addRunArtifact(tests).step);
@@ -25,7 +25,7 @@ fn robotModule(
     b: *std.Build,
     root: []const u8,
     target: std.Build.ResolvedTarget,
-    optimize: std.builtin.OptimizeMode,
+    optimize: std.builtin.Optimize,
 ) *std.Build.Module {
     const sdk = b.createModule(.{
         .root_source_file = b.path("wasmouse/wasmouse.zig"),

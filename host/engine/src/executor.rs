@@ -5,6 +5,8 @@
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
 
 use wasmouse_core::Digest;
 use wasmouse_core::game::{Fault, Ruleset};
@@ -12,7 +14,8 @@ use wasmouse_core::record::{MatchRecord, MatchSpec, Transcript};
 
 use crate::admission::{Inspection, Rejection, examine, world};
 use crate::error::InfrastructureError;
-use crate::limits::Limits;
+use crate::limits::{Limits, STACK_BYTES};
+use crate::profile::{Expected, Profile, ProfileError, Profiler};
 use crate::runner::Recording;
 use crate::runtime::{AdmissionError, Cache, CacheUse, CompiledRobot, Frame, Runtime};
 use crate::sandbox::{SandboxStatus, SandboxedRobot, Supervisor, WorkerOptions};
@@ -92,6 +95,20 @@ pub trait Executor: Sync {
         spec: &MatchSpec,
         fault: &Fault,
     ) -> Result<Option<Vec<Frame>>, InfrastructureError>;
+
+    /// The fuel of a match by function; the inner error says why there is no profile. `file` is what
+    /// was admitted, and `played` the match without a profile, whose fuel the profile has.
+    ///
+    /// # Errors
+    ///
+    /// When the host fails.
+    fn profile(
+        &self,
+        robot: &AdmittedRobot,
+        file: &[u8],
+        spec: &MatchSpec,
+        played: &DetailedMatch,
+    ) -> Result<Result<Profile, String>, InfrastructureError>;
 }
 
 /// A robot that an executor has admitted, and that only this executor can play.
@@ -280,7 +297,45 @@ impl Executor for InProcess {
             _ => None,
         })
     }
+
+    fn profile(
+        &self,
+        _: &AdmittedRobot,
+        file: &[u8],
+        spec: &MatchSpec,
+        played: &DetailedMatch,
+    ) -> Result<Result<Profile, String>, InfrastructureError> {
+        let expected = Expected::new(&played.record, &played.recording.step_fuel);
+        let profiler = Profiler::new(*self.runtime.limits())?;
+        // Looking at every call takes far longer than a match may.
+        let control = Control {
+            match_time: PROFILE_TIME_MAX,
+            ..self.control.clone()
+        };
+        thread::scope(|scope| {
+            let profile = || {
+                let clock = MatchClock::start(control, None);
+                profiler.profile(file, spec, expected, &clock)
+            };
+            // Wrappers make the stack deeper.
+            let stack = usize::try_from(spec.rules.sandbox.stack_bytes_max).unwrap_or(usize::MAX);
+            let thread = thread::Builder::new()
+                .name("profile".to_owned())
+                .stack_size(STACK_BYTES.saturating_add(stack.saturating_mul(2)))
+                .spawn_scoped(scope, profile)
+                .map_err(InfrastructureError::Thread)?;
+            let profiled = thread.join();
+            match profiled.unwrap_or_else(|panic| std::panic::resume_unwind(panic)) {
+                Ok(profile) => Ok(Ok(profile)),
+                Err(ProfileError::Host(error)) => Err(error),
+                Err(error) => Ok(Err(error.to_string())),
+            }
+        })
+    }
 }
+
+/// Processor time of a match that is profiled in this process.
+const PROFILE_TIME_MAX: Duration = Duration::from_secs(3600);
 
 /// Runs robots in sandboxed worker processes: for robots that are not trusted.
 pub struct Sandboxed {
@@ -369,5 +424,17 @@ impl Executor for Sandboxed {
         fault: &Fault,
     ) -> Result<Option<Vec<Frame>>, InfrastructureError> {
         self.supervisor.backtrace(file, spec, fault)
+    }
+
+    fn profile(
+        &self,
+        _: &AdmittedRobot,
+        file: &[u8],
+        spec: &MatchSpec,
+        played: &DetailedMatch,
+    ) -> Result<Result<Profile, String>, InfrastructureError> {
+        let expected = Expected::new(&played.record, &played.recording.step_fuel);
+        self.supervisor
+            .profile(file, spec, &expected, played.record.fuel)
     }
 }

@@ -7,6 +7,7 @@
 //! | `runtime` | wasmtime: [`Runtime`], compiled robots, limits, backtraces |
 //! | `time` | processor time: [`Account`], [`Control`] |
 //! | `runner` | one match: [`Runtime::run`] |
+//! | `profile` | the fuel of one match by function: [`Profile`] |
 //! | [`sandbox`] | untrusted robots in worker processes |
 //! | `executor` | [`Executor`]: [`InProcess`] and [`Sandboxed`] |
 //! | `local_executor` | [`LocalExecutor`], which chooses one of the two by trust |
@@ -26,6 +27,7 @@ mod fuzz;
 pub mod fuzz;
 mod limits;
 mod local_executor;
+mod profile;
 mod runner;
 mod runtime;
 pub mod sandbox;
@@ -35,6 +37,7 @@ pub use error::{InfrastructureError, Withdrawal};
 pub use executor::{AdmittedRobot, DetailedMatch, Executor, InProcess, Played, Sandboxed, Sink};
 pub use limits::{AdmissionLimits, Limits, STACK_BYTES};
 pub use local_executor::{Isolation, LocalExecutor, Trust};
+pub use profile::{FunctionCost, Profile, ProfileNode, ProfiledFunction};
 pub use runner::Recording;
 pub use runtime::{
     AdmissionError, Cache, CacheUse, CompiledRobot, ENGINE_REVISION, Frame, FramePart, Origin,

@@ -10,6 +10,7 @@ use crate::admission::{Inspection, Rejection};
 use crate::error::InfrastructureError;
 use crate::executor::{AdmittedRobot, DetailedMatch, Executor, Handle, InProcess, Sandboxed, Sink};
 use crate::limits::Limits;
+use crate::profile::Profile;
 use crate::runtime::{Cache, Frame};
 use crate::sandbox::{SandboxStatus, WorkerOptions};
 use crate::time::Control;
@@ -206,6 +207,16 @@ impl Executor for LocalExecutor {
         fault: &Fault,
     ) -> Result<Option<Vec<Frame>>, InfrastructureError> {
         self.of(robot)?.backtrace(robot, file, spec, fault)
+    }
+
+    fn profile(
+        &self,
+        robot: &AdmittedRobot,
+        file: &[u8],
+        spec: &MatchSpec,
+        played: &DetailedMatch,
+    ) -> Result<Result<Profile, String>, InfrastructureError> {
+        self.of(robot)?.profile(robot, file, spec, played)
     }
 }
 

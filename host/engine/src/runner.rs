@@ -71,6 +71,17 @@ impl Runtime {
         recording: &mut Recording,
         clock: &Arc<MatchClock>,
     ) -> Result<(GameResult, Usage), InfrastructureError> {
+        self.run_watched(robot, spec, recording, |store| watch(store, clock))
+    }
+
+    /// [`Runtime::run`] with something else that looks at the match with every epoch.
+    pub(crate) fn run_watched(
+        &self,
+        robot: &CompiledRobot,
+        spec: &MatchSpec,
+        recording: &mut Recording,
+        watch: impl FnOnce(&mut Store<Guest>),
+    ) -> Result<(GameResult, Usage), InfrastructureError> {
         assert_eq!(
             spec.rules.sandbox,
             self.limits().sandbox,
@@ -82,10 +93,11 @@ impl Runtime {
             journal: std::mem::take(&mut recording.journal),
             dimension: spec.maze.dimension(),
             step: 0,
+            calls: 0,
         };
         let mut simulation = Simulation::new(&spec.maze, &spec.rules.game);
         let mut store = self.store(guest);
-        watch(&mut store, clock);
+        watch(&mut store);
         let mut runner = Runner::new(store, spec, recording);
         let ended = runner.run(robot, &mut simulation);
         let fuel = runner.fuel;
@@ -240,6 +252,7 @@ impl<'a> Runner<'a> {
         call: impl FnOnce(&mut Store<Guest>) -> wasmtime::Result<T>,
     ) -> Result<(Called<T>, u64), InfrastructureError> {
         let expect = "the engine is configured to consume fuel";
+        self.store.data_mut().calls += 1;
         self.store.set_fuel(fuel).expect(expect);
         let called = call(&mut self.store);
         let used = fuel - self.store.get_fuel().expect(expect);

@@ -27,7 +27,7 @@ Examples:
   wasmouse build my-robot              writes my-robot/my-robot.wasm
   wasmouse build my-robot -o bot.wasm
   wasmouse build my-robot --watch      builds and plays again when a file changes
-  wasmouse build module.wasm           wraps a core module of any language
+  wasmouse build module.wasm           wraps a core module, or puts WASI inside a component
   wasmouse build robot.wat             the same for WebAssembly text
 
 Rust: the wasm target is added with rustup if it is missing. If rustup cannot fetch it,

@@ -30,6 +30,7 @@ mod output;
 mod page;
 mod pattern;
 mod play;
+mod profile;
 mod project;
 mod reproduce;
 mod resolve;
@@ -72,6 +73,7 @@ struct Cli {
 enum Command {
     Demo(demo::Args),
     Run(run::Args),
+    Profile(profile::Args),
     Grade(grade::Args),
     Compare(compare::Args),
     Study(study::Args),
@@ -126,6 +128,7 @@ fn command() -> ExitCode {
     let outcome: Result<Exit, Failure> = match cli.command {
         Command::Demo(args) => demo::run(&args),
         Command::Run(args) => run::run(&args),
+        Command::Profile(args) => profile::run(&args),
         Command::Grade(args) => grade::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Study(args) => study::run(&args),

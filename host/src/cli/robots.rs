@@ -30,7 +30,7 @@ A robot is one of:
   bot.wasm       a component, or a core module that can be turned into one
   bot.wat        either of them as WebAssembly text
   submissions    a folder: all its .wasm and .wat files by name, without subfolders
-  my-robot       a robot project (a folder with a Cargo.toml): it is built first
+  my-robot       a robot project in any language: it is built first
   flood:certain  any of these followed by a variant: its number or, for bundled
                  robots, its name (default: 0)
   ann=bot.wasm   a file, with the name that results call it";

@@ -27,6 +27,7 @@ mod number;
 mod paired;
 mod paths;
 pub mod picture;
+pub mod profile;
 pub mod results_json;
 #[cfg(test)]
 mod sample;

@@ -8,6 +8,7 @@ mod documentation;
 mod dynamic;
 mod dynamic_broken;
 mod native;
+mod prebuilt;
 mod vectors;
 
 use std::ffi::OsString;
@@ -119,7 +120,7 @@ impl Project {
     /// Builds it and returns the component.
     #[track_caller]
     pub fn build(&self) -> Vec<u8> {
-        let Ran { status, stderr, .. } = self.wasmouse("build");
+        let Ran { status, stderr, .. } = self.wasmouse("build --no-match");
         assert!(status.success(), "{}: {stderr}", self.language);
         fs::read(self.component()).expect("a component")
     }
@@ -127,6 +128,14 @@ impl Project {
     /// Where its component is.
     pub fn component(&self) -> PathBuf {
         self.folder().join(NAME).with_extension("wasm")
+    }
+
+    /// The number of the first line with a text in a file of the project, from 1.
+    #[track_caller]
+    pub fn line_of(&self, file: &str, part: &str) -> usize {
+        let text = fs::read_to_string(self.folder().join(file)).expect("a file of the project");
+        let line = text.lines().position(|line| line.contains(part));
+        line.expect("a line with that text") + 1
     }
 
     /// Replaces the only occurrence of a text in a file of the project.
@@ -217,7 +226,9 @@ pub fn official_mazes() -> Vec<String> {
 /// (unless its tools are not `reproducible`), it drives as the bundled robot in all mazes, and the
 /// doctor finds its tools.
 pub fn is_complete(project: &Project, bundled: &str, reproducible: bool) {
-    let component = project.build();
+    let Ran { status, stderr, .. } = project.wasmouse("build");
+    assert!(status.success(), "{}: {stderr}", project.language);
+    let component = fs::read(project.component()).expect("a component");
     let mazes = [official_mazes(), generated_mazes()].concat();
     project.drives_as(bundled, &mazes);
     let doctor = project.wasmouse(&format!("doctor {}", project.language));
@@ -229,7 +240,7 @@ pub fn is_complete(project: &Project, bundled: &str, reproducible: bool) {
         let moved = elsewhere.join(NAME);
         fs::rename(other.folder(), &moved).expect("on the same file system");
         let mut command = wasmouse();
-        command.args(["build", "--output", "again.wasm"]);
+        command.args(["build", "--no-match", "--output", "again.wasm"]);
         stdout_of(other.in_folder(&mut command, &moved));
         let again = fs::read(moved.join("again.wasm")).expect("a component");
         assert!(

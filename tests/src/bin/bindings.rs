@@ -1,9 +1,10 @@
-//! `bindings`: writes the SDK's bindings of `wit/robot.wit`; `cargo xtask bindings` runs it.
+//! `bindings`: writes what is made of `wit/robot.wit`: the SDK's bindings, the C header and the page
+//! of the binary interface. `cargo xtask bindings` runs it.
 
 use std::fs;
 use std::process::ExitCode;
 
-use wasmouse_tests::bindings;
+use wasmouse_tests::{abi, bindings};
 
 fn main() -> ExitCode {
     match write() {
@@ -19,9 +20,15 @@ fn write() -> Result<(), String> {
     let root = bindings::repository();
     let wit = root.join("wit/robot.wit");
     let text = fs::read_to_string(&wit).map_err(|error| format!("`{}`: {error}", wit.display()))?;
-    let source = bindings::generate(&text).map_err(|error| format!("wit/robot.wit: {error}"))?;
-    let file = root.join(bindings::FILE);
-    fs::write(&file, source).map_err(|error| format!("`{}`: {error}", file.display()))?;
-    println!("wrote {}", bindings::FILE);
+    for (name, made) in [
+        (bindings::FILE, bindings::generate(&text)),
+        (abi::HEADER, abi::header(&text)),
+        (abi::PAGE, abi::page(&text)),
+    ] {
+        let made = made.map_err(|error| format!("wit/robot.wit: {error}"))?;
+        let file = root.join(name);
+        fs::write(&file, made).map_err(|error| format!("`{}`: {error}", file.display()))?;
+        println!("wrote {name}");
+    }
     Ok(())
 }

@@ -31,7 +31,7 @@ async function load(module) {
   };
   const bytes = await readFile(module);
   const { instance } = await WebAssembly.instantiate(bytes, {
-    "wasmouse:robot/journal@0.2.0": imports,
+    journal: imports,
   });
   const robot = instance.exports;
   return { robot, journal };

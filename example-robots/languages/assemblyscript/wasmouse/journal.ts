@@ -6,19 +6,19 @@ export enum Level { Debug, Info, Warning, Error }
 export enum Color { None, Red, Orange, Yellow, Green, Cyan, Blue, Violet, Gray }
 
 // @ts-ignore: decorator
-@external("wasmouse:robot/journal@0.2.0", "log")
+@external("journal", "log")
 declare function hostLog(level: i32, text: usize, bytes: i32): void;
 
 // @ts-ignore: decorator
-@external("wasmouse:robot/journal@0.2.0", "paint")
+@external("journal", "paint")
 declare function hostPaint(x: i32, y: i32, color: i32): void;
 
 // @ts-ignore: decorator
-@external("wasmouse:robot/journal@0.2.0", "label")
+@external("journal", "label")
 declare function hostLabel(x: i32, y: i32, text: usize, bytes: i32): void;
 
 // @ts-ignore: decorator
-@external("wasmouse:robot/journal@0.2.0", "panic")
+@external("journal", "panic")
 declare function hostPanic(text: usize, bytes: i32): void;
 
 /** Writes a line of text. */

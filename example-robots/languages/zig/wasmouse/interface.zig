@@ -101,7 +101,7 @@ pub fn exportRobot(comptime Robot: type) void {
 /// What safety checks and `@panic` call: the message ends the match. A robot has it as
 /// `pub const panic = wasmouse.interface.panic;`.
 pub const panic = std.debug.FullPanic(struct {
-    fn panicked(message: []const u8, _: ?usize) noreturn {
+    fn report(message: []const u8, _: ?usize) noreturn {
         journal.fatal(message);
     }
-}.panicked);
+}.report);

@@ -16,8 +16,10 @@ mod place;
 pub mod precheck;
 mod proposal;
 mod rejection;
+mod shell;
 mod text;
 mod version;
+pub mod wasi;
 
 pub use binary::BinaryKind;
 pub use componentize::{

@@ -31,6 +31,9 @@ pub(crate) const CONTROLLER: &str = interface!("controller");
 /// The interface that a robot may import.
 pub(crate) const JOURNAL: &str = interface!("journal");
 
+/// The interface of the types of both, which every robot imports.
+pub(super) const TYPES: &str = interface!("types");
+
 /// The functions of the controller under the names by which a core module exports them.
 pub(super) const CONTROLLER_FUNCTIONS: [&str; 2] = [
     concat!(interface!("controller"), "#start"),

@@ -9,8 +9,8 @@ use std::thread;
 use std::time::Duration;
 
 use wasmtime::{
-    Config, Enabled, Engine, EngineWeak, InstanceAllocationStrategy, PoolingAllocationConfig,
-    WasmBacktraceDetails,
+    Config, Enabled, Engine, EngineWeak, Inlining, InstanceAllocationStrategy,
+    PoolingAllocationConfig, WasmBacktraceDetails,
 };
 
 use wasmouse_core::record::EngineId;
@@ -78,6 +78,22 @@ pub(crate) fn new_backtrace_engine(limits: &Limits) -> Result<Engine, Infrastruc
     config.wasm_backtrace_max_frames(NonZeroUsize::new(FRAMES_MAX));
     config.generate_address_map(true);
     config.wasm_backtrace_details(WasmBacktraceDetails::Enable);
+    Engine::new(&config).map_err(InfrastructureError::engine)
+}
+
+/// An engine for one match at a time of an instrumented robot. Every check of the epoch is answered
+/// by looking at the function that is running, so one frame suffices. Memory comes from the system
+/// and not from a pool: wrappers make instances larger than admission has computed.
+///
+/// # Errors
+///
+/// As [`new_engine`].
+pub(crate) fn new_profile_engine(limits: &Limits) -> Result<Engine, InfrastructureError> {
+    TARGET.check()?;
+    let mut config = compiler_config(limits);
+    config.wasm_backtrace_max_frames(NonZeroUsize::new(1));
+    // The frame of a mark must exist.
+    config.compiler_inlining(Inlining::No);
     Engine::new(&config).map_err(InfrastructureError::engine)
 }
 

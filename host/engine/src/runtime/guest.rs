@@ -20,6 +20,8 @@ pub(crate) struct Guest {
     pub(crate) dimension: u8,
     /// The step in progress, 0 before the first.
     pub(crate) step: u32,
+    /// Calls of the host into the robot so far: instantiation, `start`, steps.
+    pub(crate) calls: usize,
 }
 
 /// Fuel that each call into the journal costs, so that calling the host is not

@@ -14,7 +14,7 @@ pub(super) const NAME_CHARS_MAX: usize = 160;
 const MANGLED_CHARS_MAX: usize = 2000;
 
 /// The name without the mangling of Rust or C++, cut.
-pub(super) fn readable(name: &str) -> String {
+pub(crate) fn readable(name: &str) -> String {
     let name = cut(name, MANGLED_CHARS_MAX);
     let rust = rustc_demangle::try_demangle(name).map(|it| format!("{it:#}"));
     let readable = rust.unwrap_or_else(|_| {
@@ -24,6 +24,11 @@ pub(super) fn readable(name: &str) -> String {
         demangled.unwrap_or_else(|| name.to_owned())
     });
     cut(&readable, NAME_CHARS_MAX).to_owned()
+}
+
+/// The name, cut.
+pub(crate) fn shortened(name: &str) -> String {
+    cut(name, NAME_CHARS_MAX).to_owned()
 }
 
 /// The first characters of a text.

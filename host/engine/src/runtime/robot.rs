@@ -135,6 +135,11 @@ impl Runtime {
         Self::with_engine(config::new_backtrace_engine(&limits)?, limits, None)
     }
 
+    /// A runtime for one match at a time of robots that are instrumented. It has no clock.
+    pub(crate) fn for_profiles(limits: Limits) -> Result<Self, InfrastructureError> {
+        Self::with_engine(config::new_profile_engine(&limits)?, limits, None)
+    }
+
     /// A runtime on an engine of any configuration.
     pub(crate) fn with_engine(
         engine: Engine,
@@ -211,6 +216,16 @@ impl Runtime {
             digest,
             startup_fuel,
             cache,
+        })
+    }
+
+    /// A robot of a component that was examined before it was instrumented.
+    pub(crate) fn admit_examined(&self, component: &[u8]) -> Result<CompiledRobot, AdmissionError> {
+        Ok(CompiledRobot {
+            pre: self.link(&self.compile_now(component)?)?,
+            digest: Digest::of(component),
+            startup_fuel: startup_fuel(component),
+            cache: CacheUse::Off,
         })
     }
 

@@ -301,6 +301,7 @@ mod tests {
             tagged(
                 5,
                 &BacktraceOrder {
+                    profile: None,
                     rules: rules(),
                     limits,
                     maze: maze().identity_bytes(),

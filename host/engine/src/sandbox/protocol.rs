@@ -21,6 +21,7 @@ use super::role::SandboxStatus;
 use crate::admission::precheck::Shape;
 use crate::admission::{BinaryKind, Rejection, ResourceRequirements};
 use crate::limits::Limits;
+use crate::profile::{Expected, Profile};
 use crate::runtime::{Frame, engine_id};
 
 /// The largest frame, in bytes: a match of 10,000 steps with a full journal has less. A value
@@ -247,8 +248,17 @@ pub(super) struct BacktraceOrder {
     pub(super) seed: u64,
     /// The robot's variant.
     pub(super) variant: u32,
+    /// What the match is known to do, when a [`Profiled`] is wanted instead of a [`Backtrace`].
+    pub(super) profile: Option<Expected>,
     /// Bytes that follow.
     pub(super) length: u64,
+}
+
+/// The fuel of a match by function, from a backtrace worker, after its [`Hello`].
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Profiled {
+    /// The profile, or why there is none.
+    pub(super) profile: Result<Profile, String>,
 }
 
 /// Where a robot fails, from a backtrace worker, after its [`Hello`].

@@ -3,17 +3,17 @@
 use std::path::Path;
 
 use wasmouse_engine::Limits;
-use wasmouse_engine::admission::{BinaryKind, componentize, examine};
+use wasmouse_engine::admission::{BinaryKind, componentize, examine, wasi};
 
 use crate::cli::failure::Failure;
 use crate::report::text::{Text, text};
 
-/// Makes a component of a core module, in binary form or text.
+/// Makes a robot of a core module, in binary form or text, or of a component that imports WASI.
 ///
 /// # Errors
 ///
-/// When the module is no robot; the failure says what `source` lacks.
-pub fn to_component(module: &[u8], source: &Path) -> Result<Vec<u8>, Failure> {
+/// When it is no robot; the failure says what `source` lacks.
+pub fn to_component(file: &[u8], source: &Path) -> Result<Vec<u8>, Failure> {
     let failure = |reason: String, hint: &str| {
         Failure::robot(text!(
             "cannot build a robot from `{}`: {}",
@@ -22,11 +22,13 @@ pub fn to_component(module: &[u8], source: &Path) -> Result<Vec<u8>, Failure> {
         ))
         .hint(hint)
     };
-    if BinaryKind::of(module) == BinaryKind::Text {
-        return match examine(module, &Limits::default()).component {
+    match BinaryKind::of(file) {
+        BinaryKind::Component => wasi::compose(file, &Limits::default())
+            .map_err(|error| failure(error.to_string(), error.hint())),
+        BinaryKind::Text => match examine(file, &Limits::default()).component {
             Ok(component) => Ok(component.into_owned()),
             Err(rejection) => Err(failure(rejection.to_string(), rejection.hint())),
-        };
+        },
+        _ => componentize(file).map_err(|error| failure(error.to_string(), error.hint())),
     }
-    componentize(module).map_err(|error| failure(error.to_string(), error.hint()))
 }

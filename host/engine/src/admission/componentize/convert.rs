@@ -4,6 +4,7 @@ use super::encode::{encode, with_robot_types};
 use super::error::ComponentizeError;
 use super::module::Module;
 use super::names::Names;
+use super::preview1;
 use super::rename::with_full_names;
 
 /// Wraps a core module into a component.
@@ -16,6 +17,9 @@ use super::rename::with_full_names;
 /// information as well (custom sections named `component-type*`); of that, only
 /// the string encoding is used, so languages without a generator take part on
 /// the same terms. Strings are UTF-8 where nothing is said.
+///
+/// Modules that import WASI preview 1 get what answers it inside of the component, and import
+/// nothing but the journal afterwards.
 ///
 /// The same module always gives the same component.
 ///
@@ -35,5 +39,8 @@ pub fn componentize(core_module: &[u8]) -> Result<Vec<u8>, ComponentizeError> {
     let module = Module::of(core_module)?;
     let names = Names::of(&module)?;
     let full = with_full_names(&module.untyped, names)?;
+    if module.imports_from(preview1::MODULE) {
+        return preview1::encode(full, module.types, names.patch());
+    }
     encode(&with_robot_types(full, module.types, names.patch()))
 }

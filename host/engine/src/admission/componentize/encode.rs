@@ -1,9 +1,10 @@
 //! Makes a component of a module that has the names of a robot.
 
 use std::borrow::Cow;
+use std::fmt::Display;
 
 use wit_component::{ComponentEncoder, StringEncoding, embed_component_metadata};
-use wit_parser::{Resolve, WorldId};
+use wit_parser::{PackageId, Resolve, WorldId};
 
 use super::error::ComponentizeError;
 
@@ -13,6 +14,15 @@ pub const ROBOT_WIT: &str = include_str!("../../../../../wit/robot.wit");
 /// The robot world, parsed from [`ROBOT_WIT`], in the compatible version that ends in
 /// `patch`: a component has the names that its module has.
 pub(super) fn robot_world(patch: u64) -> (Resolve, WorldId) {
+    let (resolve, package) = robot_package(patch);
+    let world = resolve
+        .select_world(&[package], Some("robot"))
+        .expect("the embedded WIT has the world `robot`; a test holds it");
+    (resolve, world)
+}
+
+/// The package of [`ROBOT_WIT`] in that version.
+pub(super) fn robot_package(patch: u64) -> (Resolve, PackageId) {
     let mut resolve = Resolve::default();
     let package = resolve
         .push_str("robot.wit", ROBOT_WIT)
@@ -22,10 +32,7 @@ pub(super) fn robot_world(patch: u64) -> (Resolve, WorldId) {
     version
         .expect("the embedded WIT has a version; a test holds it")
         .patch = patch;
-    let world = resolve
-        .select_world(&[package], Some("robot"))
-        .expect("the embedded WIT has the world `robot`; a test holds it");
-    (resolve, world)
+    (resolve, package)
 }
 
 /// The component around a module with types.
@@ -35,11 +42,16 @@ pub(super) fn encode(typed_module: &[u8]) -> Result<Vec<u8>, ComponentizeError> 
         .validate(true)
         .module(typed_module)
         .and_then(|encoder| encoder.encode())
-        .map_err(|error| ComponentizeError::Mismatch {
-            // `:#` joins the causes; the innermost one names the function. It
-            // may quote the guest, so it must not reach a terminal raw.
-            message: format!("{error:#}").replace(char::is_control, " "),
-        })
+        .map_err(mismatch)
+}
+
+/// The encoder rejects a module.
+pub(super) fn mismatch(error: impl Display) -> ComponentizeError {
+    ComponentizeError::Mismatch {
+        // `:#` joins the causes; the innermost one names the function. It
+        // may quote the guest, so it must not reach a terminal raw.
+        message: format!("{error:#}").replace(char::is_control, " "),
+    }
 }
 
 /// The module with the types of the world `robot`, which says that it encodes strings so.

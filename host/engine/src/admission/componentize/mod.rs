@@ -12,13 +12,15 @@
 //! have, and every module is wrapped as that.
 //!
 //! `module` reads a module, `names` decides whether its names are those of a robot, `rename`
-//! replaces plain ones, `encode` makes the component, and `convert` is the four in order.
+//! replaces plain ones, `encode` makes the component, and `convert` is the four in order. `preview1`
+//! is for modules with WASI.
 
 mod convert;
 mod encode;
 mod error;
 mod module;
 mod names;
+mod preview1;
 mod rename;
 
 pub use convert::componentize;

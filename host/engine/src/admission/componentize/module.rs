@@ -71,6 +71,11 @@ impl Module {
         Ok(module)
     }
 
+    /// Whether it imports anything under that module name.
+    pub(super) fn imports_from(&self, module: &str) -> bool {
+        self.imports.iter().any(|(from, _)| from == module)
+    }
+
     /// Takes in one section and says whether it is type information.
     fn add(&mut self, payload: &Payload<'_>) -> Result<bool, ComponentizeError> {
         match payload {

@@ -8,6 +8,7 @@ use super::super::names::list_escaped;
 use super::super::version::{self, COMPATIBLE, VERSION};
 use super::error::ComponentizeError;
 use super::module::Module;
+use super::preview1;
 
 /// The full names under which a core module exports the functions of `controller`,
 /// in the order of the WIT. Another compatible version may stand in them.
@@ -81,7 +82,9 @@ impl Names {
             Self::Full { patch } => with_patch(JOURNAL_IMPORT, patch),
             Self::Plain => PLAIN_JOURNAL.to_owned(),
         };
-        let foreign = |(module, _): &&(String, String)| *module != journal;
+        let foreign = |(module, name): &&(String, String)| {
+            *module != journal && !(module == preview1::MODULE && preview1::answers(name))
+        };
         let Some((from, name)) = module.imports.iter().find(foreign) else {
             return Ok(());
         };
@@ -180,7 +183,7 @@ fn check_exports(module: &Module) -> Result<Names, ComponentizeError> {
 }
 
 /// A name of the interface with another patch version in it.
-fn with_patch(name: &str, patch: u64) -> String {
+pub(super) fn with_patch(name: &str, patch: u64) -> String {
     let version = format!("{}{patch}", COMPATIBLE.trim_end_matches('x'));
     name.replacen(VERSION, &version, 1)
 }

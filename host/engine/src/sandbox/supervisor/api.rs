@@ -6,11 +6,12 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Duration;
 
+use serde::de::DeserializeOwned;
 use wasmouse_core::game::{Fault, Ruleset};
-use wasmouse_core::record::{MatchRecord, MatchSpec};
+use wasmouse_core::record::{FuelUse, MatchRecord, MatchSpec};
 use wasmtime::Engine;
 
-use super::super::protocol::{Backtrace, BacktraceOrder};
+use super::super::protocol::{Backtrace, BacktraceOrder, Profiled};
 use super::super::role::{COMPILE_CPU_SECONDS, Role, SandboxStatus};
 use super::admit::Admitter;
 #[cfg(not(windows))]
@@ -25,6 +26,7 @@ use super::robot::SandboxedRobot;
 use crate::admission::{Inspection, Rejection};
 use crate::error::InfrastructureError;
 use crate::limits::Limits;
+use crate::profile::{Expected, Profile};
 use crate::runner::Recording;
 use crate::runtime::{Cache, FRAMES_MAX, Frame, new_compiler};
 
@@ -139,29 +141,7 @@ impl Supervisor {
         spec: &MatchSpec,
         fault: &Fault,
     ) -> Result<Option<Vec<Frame>>, InfrastructureError> {
-        let mut process = Process::start(&self.pool.starter, Role::Backtrace)?;
-        let order = BacktraceOrder {
-            rules: Ruleset::clone(&spec.rules),
-            limits: self.pool.limits,
-            maze: spec.maze.identity_bytes(),
-            seed: spec.key.seed,
-            variant: spec.key.variant,
-            length: u64::try_from(file.len()).unwrap_or(u64::MAX),
-        };
-        let backtrace = process.exchange(Limit::wall(BACKTRACE_TIME_MAX), |talk| {
-            talk.send(&order)?;
-            talk.writer().write_all(file)?;
-            talk.flush()?;
-            let sandbox = talk.greet()?;
-            self.pool.starter.check(sandbox).map_err(io::Error::other)?;
-            talk.receive::<Backtrace>()
-        });
-        // A backtrace is optional: whatever goes wrong here, the verdict stands.
-        let backtrace = backtrace.map_err(|error| InfrastructureError::Worker {
-            role: Role::Backtrace.name(),
-            reason: process.reap(&error).to_string(),
-        })?;
-        Ok(match backtrace {
+        Ok(match self.play_apart(file, spec, None)? {
             Backtrace {
                 fault: Some((kind, frames)),
             } if kind == fault.kind => {
@@ -169,6 +149,59 @@ impl Supervisor {
                 Some(frames.map(Frame::checked).collect())
             }
             _ => None,
+        })
+    }
+
+    /// The fuel of that match by function; the inner error says why there is no profile. `file` is
+    /// what was admitted, `fuel` what the match is known to use.
+    ///
+    /// # Errors
+    ///
+    /// As [`Supervisor::backtrace`].
+    pub(crate) fn profile(
+        &self,
+        file: &[u8],
+        spec: &MatchSpec,
+        expected: &Expected,
+        fuel: FuelUse,
+    ) -> Result<Result<Profile, String>, InfrastructureError> {
+        let Profiled { profile } = self.play_apart(file, spec, Some(expected.clone()))?;
+        let fuel = fuel.start.saturating_add(fuel.steps);
+        Ok(profile.and_then(|it| {
+            let checked = it.checked(fuel);
+            checked.ok_or_else(|| "the worker reported a profile that cannot be true".to_owned())
+        }))
+    }
+
+    /// Has a backtrace worker play a match, and returns its answer.
+    fn play_apart<T: DeserializeOwned>(
+        &self,
+        file: &[u8],
+        spec: &MatchSpec,
+        profile: Option<Expected>,
+    ) -> Result<T, InfrastructureError> {
+        let mut process = Process::start(&self.pool.starter, Role::Backtrace)?;
+        let order = BacktraceOrder {
+            rules: Ruleset::clone(&spec.rules),
+            limits: self.pool.limits,
+            maze: spec.maze.identity_bytes(),
+            seed: spec.key.seed,
+            variant: spec.key.variant,
+            profile,
+            length: u64::try_from(file.len()).unwrap_or(u64::MAX),
+        };
+        let answer = process.exchange(Limit::wall(BACKTRACE_TIME_MAX), |talk| {
+            talk.send(&order)?;
+            talk.writer().write_all(file)?;
+            talk.flush()?;
+            let sandbox = talk.greet()?;
+            self.pool.starter.check(sandbox).map_err(io::Error::other)?;
+            talk.receive::<T>()
+        });
+        // Both are optional: whatever goes wrong here, the verdict stands.
+        answer.map_err(|error| InfrastructureError::Worker {
+            role: Role::Backtrace.name(),
+            reason: process.reap(&error).to_string(),
         })
     }
 

@@ -1,0 +1,20 @@
+;; All of `journal` in wit/robot.wit.
+  (alias export $types "cell" (type $cell))
+  (alias export $types "heading" (type $heading))
+  (import "wasmouse:robot/journal@VERSION" (instance $journal
+    (alias outer $robot_with_wasi $cell (type $cell-type))
+    (export "cell" (type $cell (eq $cell-type)))
+    (alias outer $robot_with_wasi $heading (type $heading-type))
+    (export "heading" (type $heading (eq $heading-type)))
+    (type $level-type (enum "debug" "info" "warning" "error"))
+    (export "level" (type $level (eq $level-type)))
+    (type $color-type (enum
+      "none" "red" "orange" "yellow" "green" "cyan" "blue" "violet" "gray"))
+    (export "color" (type $color (eq $color-type)))
+    (type $belief-type (enum "unknown" "open" "closed"))
+    (export "belief" (type $belief (eq $belief-type)))
+    (export "log" (func (param "level" $level) (param "message" string)))
+    (export "paint" (func (param "cell" $cell) (param "color" $color)))
+    (export "label" (func (param "cell" $cell) (param "text" string)))
+    (export "wall" (func (param "cell" $cell) (param "side" $heading) (param "belief" $belief)))
+    (export "panic" (func (param "message" string)))))
