@@ -89,7 +89,10 @@ fn write(entry: Entry, component: &[u8]) {
 #[test]
 fn prebuilt_robots_are_those_of_the_manifest_and_drive_as_the_bundled_ones() {
     let manifest = manifest();
-    assert!(manifest.robots.len() >= 5, "C, C++, Zig, AssemblyScript, text");
+    assert!(
+        manifest.robots.len() >= 5,
+        "C, C++, Zig, AssemblyScript, text"
+    );
     for entry in &manifest.robots {
         let path = folder().join(&entry.file);
         let component = fs::read(&path).expect("a prebuilt robot");
