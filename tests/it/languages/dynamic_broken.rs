@@ -14,9 +14,11 @@ use crate::binary::{Ran, ran, wasmouse};
 fn check(ran: &Ran, error: &str, hint: &str) {
     let Ran { status, stderr, .. } = ran;
     assert!(!status.success(), "{stderr}");
-    assert_eq!(stderr.matches("error: ").count(), 1, "{stderr}");
-    let (found, found_hint) = stderr
-        .split_once("error: ")
+    // The messages of a tool come before it.
+    let lines = format!("\n{stderr}");
+    assert_eq!(lines.matches("\nerror: ").count(), 1, "{stderr}");
+    let (found, found_hint) = lines
+        .split_once("\nerror: ")
         .and_then(|(_, it)| it.split_once("\n\nhint: "))
         .unwrap_or_else(|| panic!("no error with a hint: {stderr}"));
     assert!(found.starts_with(error), "{error}: {stderr}");
@@ -178,7 +180,7 @@ fn python_projects() {
         "            _robot = Robot(_briefing(briefing))",
         "            self.robot = Robot(_briefing(briefing))",
     );
-    let error = "`./controller.py`, line 37: `self.robot` is lost: every call gets a new";
+    let error = "`./controller.py`, line 38: `self.robot` is lost: every call gets a new";
     check_build(&project, error, "a variable of the module");
     project.patch("controller.py", "class Controller(", "class Controler(");
     let error = "`./controller.py` has no class `Controller`";
@@ -217,7 +219,7 @@ fn javascript_projects() {
         format!("import {{ readFileSync }} from \"node:fs\";\nreadFileSync(\"x\");\n{robot}");
     broken(&node, bundle, "neither the modules of Node");
     let import = format!("null.nothing;\n{robot}");
-    let error = "`mouse` failed as its modules were imported: TypeError: cannot read property";
+    let error = "`mouse` failed as its modules were imported: Error: cannot read property";
     broken(&import, error, "do such work in `start`");
     project.patch(
         "src/controller.js",

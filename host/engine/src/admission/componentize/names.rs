@@ -5,7 +5,7 @@
 //! imports from `journal`. They mean the version of this host.
 
 use super::super::names::list_escaped;
-use super::super::version::{self, with_patch};
+use super::super::version::{self, VERSION, with_patch};
 use super::error::ComponentizeError;
 use super::module::Module;
 use super::preview1;

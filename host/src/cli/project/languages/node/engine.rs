@@ -104,7 +104,17 @@ impl Engine {
             .ok()
             .and_then(|text| serde_json::from_str::<Installed>(&text).ok());
         let is_listed = Manifest::read(folder)?.needs(package);
-        let install = text!("npm install --save-dev --save-exact {}@{}", package, tested);
+        // componentize-js imports a package that it does not name among those that it needs.
+        let with = match self {
+            Self::QuickJs => "",
+            Self::StarlingMonkey => " @bytecodealliance/preview2-shim@0.26.0",
+        };
+        let install = text!(
+            "npm install --save-dev --save-exact {}@{}{}",
+            package,
+            tested,
+            with
+        );
         match installed {
             None if is_listed => Err(Failure::input(text!("{} is not installed", package))
                 .hint(text!("run `npm ci` in `{}`", Text::of_path(folder)))),
@@ -217,7 +227,11 @@ mod tests {
         let engine = r#"{"wasmouse": {"engine": "v8"}}"#;
         check(engine, None, "names the engine `v8`");
         let engine = r#"{"wasmouse": {"engine": "starlingmonkey"}}"#;
-        check(engine, None, "componentize-js@0.23.0`");
+        check(
+            engine,
+            None,
+            "componentize-js@0.23.0 @bytecodealliance/preview2-shim@0.26.0`",
+        );
     }
 
     #[test]
