@@ -13,12 +13,17 @@ use super::repository_file;
 use crate::binary::{path, ran};
 
 /// Folders with YAML files, scripts or both.
-const FOLDERS: [&str; 5] = [
+const FOLDERS: [&str; 10] = [
     ".github/workflows",
     ".github/actions/grade",
     "docs/ci",
     "docs/ci/gradescope",
     "host/templates/new",
+    "example-robots/languages/assemblyscript/.github/workflows",
+    "example-robots/languages/c/.github/workflows",
+    "example-robots/languages/cpp/.github/workflows",
+    "example-robots/languages/wat/.github/workflows",
+    "example-robots/languages/zig/.github/workflows",
 ];
 
 /// Where the workflow for repositories of robots leaves a name and a commit to be filled in.

@@ -150,3 +150,50 @@ fn templates_have_the_header_of_the_interface() {
         assert!(text == header, "copy wit/wasmouse.h to {copy}");
     }
 }
+
+/// With `--target=wasm32-wasi` there is a standard library, and what it asks of an operating system
+/// is answered inside the robot.
+#[test]
+fn c_has_its_library_when_asked() {
+    let Some(project) = project("c", "c_has_its_library_when_asked") else {
+        return;
+    };
+    project.patch("compile_flags.txt", "wasm32-unknown-unknown", "wasm32-wasi");
+    project.patch(
+        "src/robot.c",
+        "#include \"wasmouse/robot.h\"",
+        "#include <stdio.h>\n#include \"wasmouse/robot.h\"",
+    );
+    project.patch(
+        "src/robot.c",
+        "  tracker_init(&tracker, briefing);",
+        "  printf(\"a budget of %u\\n\", briefing->budget);\n  tracker_init(&tracker, briefing);",
+    );
+    project.build();
+    project.drives_as("flood", &["test_maze_01".to_owned()]);
+    let ran = project.wasmouse("run mouse.wasm test_maze_01 --log");
+    let log = ran.stdout + &ran.stderr;
+    assert!(log.contains("a budget of 1000"), "{log}");
+}
+
+/// The constructors of global objects run once, before `start`.
+#[test]
+fn cpp_has_its_library_when_asked() {
+    let Some(project) = project("cpp", "cpp_has_its_library_when_asked") else {
+        return;
+    };
+    project.patch("compile_flags.txt", "wasm32-unknown-unknown", "wasm32-wasi");
+    project.patch(
+        "src/robot.cpp",
+        "using namespace wasmouse;",
+        "#include <vector>\nusing namespace wasmouse;\nstatic std::vector<int> table = {1, 2, 3};",
+    );
+    project.patch(
+        "src/robot.cpp",
+        "    tracker = Tracker(briefing);",
+        "    table.push_back(4);\n    robot_assert(table.size() == 4);\n    \
+         tracker = Tracker(briefing);",
+    );
+    project.build();
+    project.drives_as("flood", &["test_maze_01".to_owned()]);
+}
