@@ -227,7 +227,11 @@ mod tests {
         let engine = r#"{"wasmouse": {"engine": "v8"}}"#;
         check(engine, None, "names the engine `v8`");
         let engine = r#"{"wasmouse": {"engine": "starlingmonkey"}}"#;
-        check(engine, None, "componentize-js@0.23.0 @bytecodealliance/preview2-shim@0.26.0`");
+        check(
+            engine,
+            None,
+            "componentize-js@0.23.0 @bytecodealliance/preview2-shim@0.26.0`",
+        );
     }
 
     #[test]
