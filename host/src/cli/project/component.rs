@@ -23,7 +23,7 @@ pub fn to_component(file: &[u8], source: &Path) -> Result<Vec<u8>, Failure> {
         .hint(hint)
     };
     match BinaryKind::of(file) {
-        BinaryKind::Component => wasi::compose(file, &Limits::default())
+        BinaryKind::Component if imports_wasi(file) => wasi::compose(file, &Limits::default())
             .map_err(|error| failure(error.to_string(), error.hint())),
         BinaryKind::Text => match examine(file, &Limits::default()).component {
             Ok(component) => Ok(component.into_owned()),
@@ -31,4 +31,11 @@ pub fn to_component(file: &[u8], source: &Path) -> Result<Vec<u8>, Failure> {
         },
         _ => componentize(file).map_err(|error| failure(error.to_string(), error.hint())),
     }
+}
+
+/// Whether a component needs what composing adds. One that cannot be read is composed, which says
+/// what is wrong with it.
+fn imports_wasi(component: &[u8]) -> bool {
+    let shape = examine(component, &Limits::default()).shape;
+    shape.is_none_or(|it| it.imports.iter().any(|name| wasi::is_wasi(name)))
 }
