@@ -354,8 +354,8 @@ fn proposals_that_are_off() {
         ("(module (memory i64 1))", "memory64"),
         ("(module (memory 1 1 shared))", "threads"),
         ("(module (tag))", "exceptions"),
-        ("(module (type (struct)))", "gc"),
-        ("(module (table 1 externref))", "gc"),
+        ("(module (type (struct)))", "garbage collection"),
+        ("(module (table 1 externref))", "garbage collection"),
         ("(module (memory 1 (pagesize 1)))", "page size"),
         (
             "(module (func (result v128) v128.const i64x2 0 0 v128.const i64x2 0 0
@@ -365,12 +365,12 @@ fn proposals_that_are_off() {
         ("(component (type (stream u8)))", "async"),
         ("(component (type (future u8)))", "async"),
         ("(component (core func (canon thread.index)))", "thread"),
-        ("(component (type (list u8 4)))", "fixed-length"),
-        ("(component (type error-context))", "error"),
+        ("(component (type (list u8 4)))", "fixed length"),
+        ("(component (type error-context))", "async"),
     ] {
         let file = wat::parse_str(text).unwrap_or_else(|error| panic!("{text}: {error}"));
         let found = rejection(&file, text);
-        assert!(found.starts_with("invalid: "), "{text}: {found}");
+        assert!(found.starts_with("proposal: "), "{text}: {found}");
         assert!(found.contains(" at byte "), "{found}");
         let lower = found.to_lowercase();
         assert!(lower.contains(&words.to_lowercase()), "{text}: {found}");

@@ -51,7 +51,7 @@ fn text_plays_as_what_is_built_from_it() {
     fs::write(folder.join("left.wat"), LEFT).expect("a file");
     let (code, stdout, stderr) = run(folder, "build left.wat");
     assert_eq!(code, Some(0), "{stderr}");
-    assert!(stdout.starts_with("left.component.wasm: "), "{stdout}");
+    assert!(stdout.starts_with("left.component.wasm\n"), "{stdout}");
     assert!(stdout.contains("wasmouse:robot/journal@"), "{stdout}");
     let play = |robot: &str, more: &str| {
         let line = format!("run bot={robot} gen:tree:12:1..=3 --json {more}");

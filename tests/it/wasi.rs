@@ -696,7 +696,7 @@ fn a_component_with_wasi_is_built_and_played() {
     let text = rejected.stderr;
     assert!(text.contains("`wasmouse build FILE.wasm`"), "{text}");
     let built = stdout_of(&mut command("build bot.wasm"));
-    assert!(built.starts_with("bot.robot.wasm: "), "{built}");
+    assert!(built.starts_with("bot.robot.wasm\n"), "{built}");
     let played = ran(&mut command(
         "run bot.robot.wasm test_maze_01 --seed 7 --no-cache --reproduce",
     ));

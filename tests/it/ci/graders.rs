@@ -118,7 +118,7 @@ fn gradescope_gets_the_points_of_a_robot() {
     grader.submit("robot.wasm", b"no robot");
     let results = grader.grades();
     assert!(points(&results).abs() < 1e-9, "{results}");
-    assert!(results.to_string().contains("not a"), "{results}");
+    assert!(results.to_string().contains("not WebAssembly"), "{results}");
 }
 
 /// A result for a submission that cannot be graded, which has to say this.

@@ -12,7 +12,7 @@ const WIDTH: usize = 80;
 ///
 /// # Errors
 ///
-/// As [`Abi::read`].
+/// When the WIT cannot be read, or has something in it that this does not know.
 pub fn header(wit: &str) -> Result<String, String> {
     let abi = Abi::read(wit)?;
     let mut out = format!(

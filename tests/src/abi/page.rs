@@ -9,7 +9,7 @@ use crate::bindings::COMMAND;
 ///
 /// # Errors
 ///
-/// As [`Abi::read`].
+/// When the WIT cannot be read, or has something in it that this does not know.
 pub fn page(wit: &str) -> Result<String, String> {
     let abi = Abi::read(wit)?;
     let mut out = format!(

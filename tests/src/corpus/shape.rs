@@ -70,10 +70,10 @@ fn modules() -> Vec<Case> {
                 .into(),
         ),
         module(
-            "module-that-imports-wasi",
-            "core module imports `fd_write` from `wasi_snapshot_preview1`, which is not available to robots",
+            "module-that-imports-an-older-wasi",
+            "core module imports `fd_write` from `wasi_unstable`, which is not available to robots",
             importing(
-                r#"(import "wasi_snapshot_preview1" "fd_write"
+                r#"(import "wasi_unstable" "fd_write"
                 (func (param i32 i32 i32 i32) (result i32)))"#,
             ),
         ),
