@@ -89,10 +89,15 @@ impl Args {
     fn build(&self) -> Result<(), Failure> {
         let (component, default_output) = if self.path.is_dir() {
             let project = project::find(&self.path)?;
+            if self.profile.is_some() && project.language.name != "rust" {
+                return Err(no_profile(project.language.title));
+            }
             let options = Options {
                 profile: self.profile.clone(),
             };
             (project.build(&options)?, project.component())
+        } else if self.profile.is_some() {
+            return Err(no_profile("files"));
         } else {
             let module = input::read_file(&self.path, CORE_MODULE_BYTES_MAX).map_err(|error| {
                 Failure::input(text!(
@@ -146,6 +151,12 @@ impl Args {
             }
         }
     }
+}
+
+/// `--profile` would change nothing.
+fn no_profile(what: &str) -> Failure {
+    Failure::usage(text!("--profile is for Rust projects, not for {}", what))
+        .hint("leave --profile out")
 }
 
 /// The interfaces that a component gets functions from. `types` has none, and every robot

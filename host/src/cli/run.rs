@@ -30,6 +30,7 @@ use crate::report::jsonl::JsonLines;
 use crate::report::results_json::ResultsWriter;
 use crate::report::table;
 use crate::report::text::Text;
+use crate::report::text::text;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -247,7 +248,17 @@ impl Args {
     fn no_robot(&self) -> Failure {
         let unknown = self.arguments.iter().find(|it| !mazes::is_meant_by(it));
         match unknown {
-            None => Failure::usage("no robot specified").hint(robots::unknown_hint("")),
+            None => {
+                let is_folder = |it: &&String| Path::new(it).is_dir();
+                let failure = match self.arguments.iter().find(is_folder) {
+                    Some(folder) => Failure::usage(text!(
+                        "no robot specified: folder `{}` has no robots and is no robot project",
+                        folder
+                    )),
+                    None => Failure::usage("no robot specified"),
+                };
+                failure.hint(robots::unknown_hint(""))
+            }
             Some(argument) => Failure::usage(format!("unknown robot `{}`", for_terminal(argument)))
                 .hint(robots::unknown_hint(argument)),
         }

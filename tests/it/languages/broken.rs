@@ -106,6 +106,7 @@ fn remove(folder: &Path, file: &str) {
 }
 
 const CASES: &[Case] = &[
+    case("a profile of cargo", "wat", |_| ()).command("build --no-match --profile dev"),
     case("no tools", "c", |_| ()),
     case("no tools", "cpp", |_| ()),
     case("no tools", "zig", |_| ()),
