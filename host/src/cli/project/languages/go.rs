@@ -80,14 +80,15 @@ fn compile(project: &Project, _: &Options) -> Result<Vec<u8>, Failure> {
     let output = files::Temporary::new("robot.wasm")?;
     let mut command = go.command();
     command
-        // No paths of this machine and no names: two builds are the same bytes.
+        // No paths of this machine, so that two builds are the same bytes. The names of functions
+        // stay, for backtraces and profiles.
         .args([
             "build",
             "-trimpath",
             "-buildvcs=false",
             "-buildmode=c-shared",
         ])
-        .arg("-ldflags=-s -w -buildid=")
+        .arg("-ldflags=-w -buildid=")
         .arg("-o")
         .arg(output.path())
         .arg(".")
