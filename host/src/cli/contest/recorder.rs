@@ -4,7 +4,7 @@
 //! every other thread that ends one meanwhile would wait with it.
 
 use std::io;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
+use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, sync_channel};
 use std::thread::{self, Scope, ScopedJoinHandle};
 use std::time::{Duration, Instant};
 
@@ -15,7 +15,11 @@ use crate::store::StoreSink;
 const FLUSH: Duration = Duration::from_secs(1);
 
 /// Matches that wait to be written, at most. Whoever plays more than the disk takes waits.
-const QUEUE: usize = 1024;
+const QUEUE: usize = 8192;
+
+/// How long the thread sleeps between two looks at the queue. Were it woken for each match, it
+/// would take a processor from a match in progress each time.
+const PAUSE: Duration = Duration::from_millis(50);
 
 /// Takes matches from any thread.
 pub struct Recorder<'scope> {
@@ -58,6 +62,7 @@ impl<'scope> Recorder<'scope> {
     /// When something could not be written; the error of the store is inside.
     pub fn finish(self) -> io::Result<()> {
         drop(self.queue);
+        self.thread.thread().unpark();
         self.thread
             .join()
             .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
@@ -68,8 +73,7 @@ impl<'scope> Recorder<'scope> {
 fn record(mut sink: StoreSink<'_>, received: &Receiver<(ContestMaze, Ended)>) -> io::Result<()> {
     let mut flushed = Instant::now();
     loop {
-        let left = FLUSH.saturating_sub(flushed.elapsed());
-        match received.recv_timeout(left) {
+        match received.try_recv() {
             Ok((maze, ended)) => {
                 sink.maze(&maze)?;
                 match &ended {
@@ -77,9 +81,10 @@ fn record(mut sink: StoreSink<'_>, received: &Receiver<(ContestMaze, Ended)>) ->
                     Ended::Failed(failure) => sink.failed(failure)?,
                     Ended::Withdrawn(failure) => sink.withdrawn(failure)?,
                 }
+                continue;
             }
-            Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => {
+            Err(TryRecvError::Empty) => {}
+            Err(TryRecvError::Disconnected) => {
                 sink.finish()?;
                 return Ok(());
             }
@@ -88,5 +93,6 @@ fn record(mut sink: StoreSink<'_>, received: &Receiver<(ContestMaze, Ended)>) ->
             sink.flush()?;
             flushed = Instant::now();
         }
+        thread::park_timeout(PAUSE);
     }
 }
