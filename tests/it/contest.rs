@@ -241,6 +241,33 @@ fn matches(store: &Path) -> i64 {
     count.expect("a count")
 }
 
+/// Building a project runs what its author wrote, so a submission must not be able to ask for it.
+#[test]
+fn a_pattern_finds_no_projects() {
+    let folder = folder(
+        "version = 1
+name = \"Test\"
+[[robots]]
+path = \"submissions/*\"
+[[mazes]]
+set = \"one\"
+paths = [\"test_maze_01\"]
+",
+    );
+    let project = folder.path().join("submissions/project");
+    fs::create_dir_all(&project).expect("a folder");
+    // Were it a project, this would be an error.
+    fs::write(project.join("Cargo.toml"), "no manifest").expect("a file");
+    let component = find("flood").expect("a bundled robot").component;
+    fs::write(folder.path().join("submissions/ann.wasm"), component).expect("a file");
+    let Ran { stdout, stderr, .. } = succeeds(folder.path(), &["run"]);
+    assert!(stdout.contains("ann"), "{stdout}");
+    assert!(
+        !stdout.contains("project") && !stderr.contains("project"),
+        "{stdout}{stderr}"
+    );
+}
+
 #[test]
 fn what_changes_is_played_again_and_nothing_else() {
     let text = "

@@ -144,7 +144,8 @@ impl std::fmt::Display for TextPlace {
 /// use wasmouse_engine::admission::{TextError, to_binary};
 ///
 /// let limits = Limits::default();
-/// assert_eq!(to_binary(b"(module)", &limits).as_deref(), Ok(&b"\0asm\x01\0\0\0"[..]));
+/// let binary = to_binary(b"(module)", &limits).expect("a module without anything in it");
+/// assert!(binary.starts_with(b"\0asm\x01\0\0\0"));
 /// let error = to_binary(b"(module\n  (fun))", &limits).expect_err("there is no `fun`");
 /// assert!(error.to_string().contains("line 2, column 4"), "{error}");
 /// ```

@@ -164,20 +164,13 @@ fn robot_files(
     key: &str,
 ) -> Result<Vec<PathBuf>, Failure> {
     if path.is_pattern() {
-        let is_robot = |it: &Path| robots::has_robot_extension(it) || project::is_project(it);
-        let found = pattern::matches(contest.folder(), path.as_str(), is_robot)
+        // Never a project: building one runs what its author wrote, outside of any sandbox.
+        let found = pattern::matches(contest.folder(), path.as_str(), robots::has_robot_extension)
             .map_err(|error| unreadable(contest, key, path, &error))?;
         if found.is_empty() {
             message!("warning: no robot matches `{}`", path.as_str());
         }
-        let mut files = Vec::new();
-        for path in found
-            .iter()
-            .filter(|it| it.is_file() || project::is_project(it))
-        {
-            files.extend(robots::files_at(path)?);
-        }
-        return Ok(files);
+        return Ok(found.into_iter().filter(|it| it.is_file()).collect());
     }
     let full = contest.join(path);
     if !full.exists() {
