@@ -38,8 +38,10 @@ use super::rename::with_full_names;
 pub fn componentize(core_module: &[u8]) -> Result<Vec<u8>, ComponentizeError> {
     let module = Module::of(core_module)?;
     let names = Names::of(&module)?;
-    let full = with_full_names(&module.untyped, names)?;
-    if module.imports_from(preview1::MODULE) {
+    let has_preview1 = module.imports_from(preview1::MODULE);
+    // Moved from stage to stage: a module may be as large as the largest file.
+    let full = with_full_names(module.untyped, names)?;
+    if has_preview1 {
         return preview1::encode(full, module.types, names.patch());
     }
     encode(&with_robot_types(full, module.types, names.patch()))

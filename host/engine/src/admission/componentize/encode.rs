@@ -1,6 +1,5 @@
 //! Makes a component of a module that has the names of a robot.
 
-use std::borrow::Cow;
 use std::fmt::Display;
 
 use wit_component::{ComponentEncoder, StringEncoding, embed_component_metadata};
@@ -59,12 +58,11 @@ pub(super) fn mismatch(error: impl Display) -> ComponentizeError {
 
 /// The module with the types of the world `robot`, which says that it encodes strings so.
 pub(super) fn with_robot_types(
-    untyped: Cow<'_, [u8]>,
+    mut untyped: Vec<u8>,
     strings: Option<StringEncoding>,
     patch: u64,
 ) -> Vec<u8> {
     let (resolve, world) = robot_world(patch);
-    let mut untyped = untyped.into_owned();
     embed_component_metadata(
         &mut untyped,
         &resolve,

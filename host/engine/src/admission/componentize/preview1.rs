@@ -3,8 +3,6 @@
 //! They get an adapter that shares their memory and answers everything inside the component, and
 //! a component behind it that puts lines of output together. `docs/WASI.md` says what is answered.
 
-use std::borrow::Cow;
-
 use wasm_encoder::reencode::{Reencode as _, RoundtripReencoder};
 use wasm_encoder::{ExportSection, ImportSection, RawSection};
 use wasmparser::{BinaryReader, ExportSectionReader, ImportSectionReader};
@@ -30,13 +28,13 @@ pub(super) fn answers(function: &str) -> bool {
 
 /// The component around a module that imports preview 1 from [`MODULE`].
 pub(super) fn encode(
-    untyped: Cow<'_, [u8]>,
+    untyped: Vec<u8>,
     strings: Option<StringEncoding>,
     patch: u64,
 ) -> Result<Vec<u8>, ComponentizeError> {
     let strings = strings.unwrap_or_default();
     // The module's controller is called by the adapter, so the world of the module has none.
-    let main = with_world(untyped.into_owned(), MAIN_WIT, "main", patch, strings);
+    let main = with_world(untyped, MAIN_WIT, "main", patch, strings);
     let adapter = with_world(
         adapter(patch),
         ADAPTER_WIT,

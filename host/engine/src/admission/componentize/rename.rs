@@ -1,7 +1,5 @@
 //! [`with_full_names`]: a module with plain names, under the names that the encoder knows.
 
-use std::borrow::Cow;
-
 use wasm_encoder::reencode::{Error, Reencode as _, RoundtripReencoder};
 use wasm_encoder::{ExportSection, ImportSection, Section as _};
 use wasmparser::{Parser, Payload};
@@ -16,17 +14,14 @@ use super::names::Names;
 /// # Errors
 ///
 /// None, of a module that was read before.
-pub(super) fn with_full_names(
-    module: &[u8],
-    names: Names,
-) -> Result<Cow<'_, [u8]>, ComponentizeError> {
+pub(super) fn with_full_names(module: Vec<u8>, names: Names) -> Result<Vec<u8>, ComponentizeError> {
     if names != Names::Plain {
-        return Ok(Cow::Borrowed(module));
+        return Ok(module);
     }
     let (header, _) = module.split_at(HEADER_BYTES);
     let mut renamed = header.to_vec();
     let mut section_start = HEADER_BYTES;
-    for payload in Parser::new(0).parse_all(module) {
+    for payload in Parser::new(0).parse_all(&module) {
         let payload = payload.map_err(ComponentizeError::malformed)?;
         let Some((_, range)) = payload.as_section() else {
             continue;
@@ -61,7 +56,7 @@ pub(super) fn with_full_names(
         }
         section_start = section_end;
     }
-    Ok(Cow::Owned(renamed))
+    Ok(renamed)
 }
 
 fn malformed(error: Error) -> ComponentizeError {
