@@ -2,7 +2,7 @@
 const std = @import("std");
 
 pub fn build(b: *std.Build) void {
-    // Safety checks stay on: a mistake ends the match with a message instead of nonsense.
+    // Safety checks stay on: a mistake ends the match with a message instead of going on with wrong numbers.
     const optimize = b.option(std.builtin.Optimize, "optimize", "Default: safe") orelse .safe;
 
     const wasm = b.resolveTargetQuery(.{ .cpu_arch = .wasm32, .os_tag = .freestanding });

@@ -155,7 +155,7 @@ impl Reader {
         let mut types = Vec::new();
         for interface in ["types", "controller", "journal"].map(interface) {
             for (name, id) in &self.resolve.interfaces[interface?].types {
-                // What an interface takes from another is there already.
+                // What an interface takes from another was read with that one.
                 if !matches!(self.resolve.types[*id].kind, TypeDefKind::Type(_)) {
                     types.push(self.named(name, *id)?);
                 }

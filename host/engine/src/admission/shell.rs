@@ -46,7 +46,7 @@ mod section {
 /// A component with a place for a robot.
 ///
 /// Its second component is empty and stands for the robot. The sections that follow it
-/// instantiate that component and take the controller from the instance: they are written anew
+/// instantiate that component and take the controller from the instance: they are written again
 /// for each robot, because they have its names in them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shell {

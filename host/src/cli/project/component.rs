@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use wasmouse_engine::Limits;
-use wasmouse_engine::admission::{BinaryKind, componentize, examine, wasi};
+use wasmouse_engine::admission::wasi::{self, ComposeError};
+use wasmouse_engine::admission::{BinaryKind, componentize, examine};
 
 use crate::cli::failure::Failure;
 use crate::report::text::{Text, text};
@@ -23,19 +24,17 @@ pub fn to_component(file: &[u8], source: &Path) -> Result<Vec<u8>, Failure> {
         .hint(hint)
     };
     match BinaryKind::of(file) {
-        BinaryKind::Component if imports_wasi(file) => wasi::compose(file, &Limits::default())
-            .map_err(|error| failure(error.to_string(), error.hint())),
+        BinaryKind::Component => match wasi::compose(file, &Limits::default()) {
+            // A robot as it is, which `componentize` says.
+            Err(ComposeError::WithoutWasi) => {
+                componentize(file).map_err(|error| failure(error.to_string(), error.hint()))
+            }
+            composed => composed.map_err(|error| failure(error.to_string(), error.hint())),
+        },
         BinaryKind::Text => match examine(file, &Limits::default()).component {
             Ok(component) => Ok(component.into_owned()),
             Err(rejection) => Err(failure(rejection.to_string(), rejection.hint())),
         },
         _ => componentize(file).map_err(|error| failure(error.to_string(), error.hint())),
     }
-}
-
-/// Whether a component needs what composing adds. One that cannot be read is composed, which says
-/// what is wrong with it.
-fn imports_wasi(component: &[u8]) -> bool {
-    let shape = examine(component, &Limits::default()).shape;
-    shape.is_none_or(|it| it.imports.iter().any(|name| wasi::is_wasi(name)))
 }
