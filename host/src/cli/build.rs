@@ -40,7 +40,8 @@ Other languages: `wasmouse doctor` says what they need.";
 /// A project is compiled with the tools of its language, and NAME.wasm is written into its folder.
 /// For a core module FILE.wasm or text FILE.wat, FILE.component.wasm is written beside it; for a
 /// component that imports WASI, FILE.robot.wasm, which has what answers WASI inside. Then the robot
-/// plays a match in a known maze and one in a large maze, to show its fuel beside the limits.
+/// plays a match in a known maze and one in a large maze, to show its fuel beside the limits; a fault
+/// in them is shown and is no failure of the build.
 #[derive(clap::Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
