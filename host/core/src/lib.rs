@@ -8,7 +8,8 @@
 //! - [`record`]: the identity of a match ([`MatchKey`](record::MatchKey)), its outcome
 //!   ([`MatchRecord`](record::MatchRecord)) and the robot's actions
 //!   ([`Transcript`](record::Transcript));
-//! - [`knowledge`]: what a robot could know at every step.
+//! - [`knowledge`]: what a robot could know at every step;
+//! - [`playback`]: a match at any step, for those who show it.
 //!
 //! The crate does not use WebAssembly, files, threads or clocks, so that a web page, a
 //! terminal player or a coordinator on another machine can use it. It compiles for
@@ -52,6 +53,7 @@ pub mod game;
 pub mod journal;
 pub mod knowledge;
 pub mod maze;
+pub mod playback;
 pub mod record;
 
 pub use digest::{Digest, DigestBuilder, ParseDigestError};
