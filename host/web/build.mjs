@@ -2,11 +2,15 @@
 // The core beside them is built by `cargo xtask web`, which calls this.
 
 import { build } from "esbuild";
-import { fileURLToPath } from "node:url";
+import { readFile } from "node:fs/promises";
 import path from "node:path";
+import { fileURLToPath } from "node:url";
 
 const here = path.dirname(fileURLToPath(import.meta.url));
 const output = path.resolve(process.argv[2] ?? path.join(here, "prebuilt"));
+
+// Preact's licence asks for its text in every copy.
+const licence = (await readFile(path.join(here, "node_modules/preact/LICENSE"), "utf8")).trim();
 
 await build({
   absWorkingDir: here,
@@ -23,7 +27,7 @@ await build({
   jsxImportSource: "preact",
   legalComments: "none",
   banner: {
-    js: "/* The player of wasmouse, made of host/web. With Preact, (c) Jason Miller, MIT licence. */",
+    js: `/*\nThe player of wasmouse, made of host/web.\n\nWith Preact:\n\n${licence}\n*/`,
   },
   logLevel: "warning",
 });

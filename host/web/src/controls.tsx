@@ -26,6 +26,7 @@ export function Transport({ player }: { player: Player }) {
         label={isPlaying ? "Pause" : "Play"}
         shortcut="Space"
         class="w-primary"
+        autofocus
         onClick={() => player.toggle()}
       />
       <IconButton

@@ -1,6 +1,6 @@
 // The player: a dialog over the page.
 
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import { Compare, KeyHelp, OverlayChoice, Transport } from "./controls";
 import { Facts, Logs } from "./facts";
 import { IconButton } from "./icons";
@@ -17,7 +17,8 @@ export function Dialog(props: { player: Player; library: Library; onClose: () =>
   usePlayer(player);
   const dialog = useRef<HTMLDialogElement>(null);
   const isOpen = player.panes.length > 0 || player.problem !== null;
-  useEffect(() => {
+  // Before anything is painted, so that keys that follow at once reach the player.
+  useLayoutEffect(() => {
     if (isOpen) {
       dialog.current?.showModal();
     } else {

@@ -28,6 +28,8 @@ export function IconButton(props: {
   label: string;
   shortcut?: string;
   class?: string;
+  /** Whether it has the focus when the dialog opens. */
+  autofocus?: boolean;
   onClick: () => void;
 }) {
   const title = props.shortcut ? `${props.label} (${props.shortcut})` : props.label;
@@ -37,6 +39,7 @@ export function IconButton(props: {
       class={`w-button ${props.class ?? ""}`}
       title={title}
       aria-label={props.label}
+      autofocus={props.autofocus ?? false}
       onClick={props.onClick}
     >
       <Icon name={props.icon} />

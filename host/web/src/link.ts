@@ -11,8 +11,13 @@ export interface Place {
 
 export function formatLink(places: Place[]): string {
   const part = (it: Place) =>
-    [it.robot, it.maze, it.seed, String(it.step)].map(encodeURIComponent).join("/");
+    [it.robot, it.maze, it.seed, String(it.step)].map(encode).join("/");
   return `#${places.map(part).join("+")}`;
+}
+
+/** Percent-encoded, but for the colon between a robot and its variant, which is no separator here. */
+function encode(text: string): string {
+  return encodeURIComponent(text.replace(/\p{Cs}/gu, "\ufffd")).replaceAll("%3A", ":");
 }
 
 /** The places of a link, or none if it is that of a section or anything else. */

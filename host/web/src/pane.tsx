@@ -1,6 +1,6 @@
 // One match: its name, its drawing and its state in a line.
 
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import { draw } from "./draw";
 import type { Library, Source } from "./library";
 import type { Pane as PaneState, Player } from "./player";
@@ -74,7 +74,7 @@ function Drawing(props: { player: Player; pane: PaneState; label: string }) {
   const current = useRef(pane);
   current.current = pane;
 
-  useEffect(() => {
+  useLayoutEffect(() => {
     const [element, parent] = [canvas.current, box.current];
     const context = element?.getContext("2d");
     if (!element || !parent || !context) {
@@ -123,7 +123,7 @@ function Drawing(props: { player: Player; pane: PaneState; label: string }) {
     };
   }, [player]);
   // Another match in the same place is drawn as soon as it is there.
-  useEffect(() => player.redraw(), [player, pane]);
+  useLayoutEffect(() => player.redraw(), [player, pane]);
 
   return (
     <div class="w-drawing" ref={box}>

@@ -1,9 +1,9 @@
 // Renders a component again whenever the player changes.
 
-import { useEffect, useState } from "preact/hooks";
+import { useLayoutEffect, useState } from "preact/hooks";
 import type { Player } from "./player";
 
 export function usePlayer(player: Player): void {
   const [, setVersion] = useState(0);
-  useEffect(() => player.subscribe(() => setVersion((it) => it + 1)), [player]);
+  useLayoutEffect(() => player.subscribe(() => setVersion((it) => it + 1)), [player]);
 }
