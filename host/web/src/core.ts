@@ -24,7 +24,7 @@ export type Note =
 
 /** What does not change while a match is watched. All text is untrusted. */
 export interface About {
-  origin: { robot: string; variant: string; maze: string; seed: string } | null;
+  origin: { robot: string; maze: string; seed: string } | null;
   dimension: number;
   start: [number, number];
   goal: [x: number, y: number, width: number, height: number];

@@ -93,10 +93,9 @@ export class Library {
     const match = core.openReplay(bytes);
     const { about } = match;
     match.close();
-    const origin = about.origin ?? { robot: name, variant: "", maze: "", seed: "" };
-    const variant = origin.variant === "" ? "" : ` (${origin.variant})`;
+    const origin = about.origin ?? { robot: name, maze: "", seed: "" };
     const source: Source = {
-      robot: `${origin.robot}${variant}`,
+      robot: origin.robot,
       maze: origin.maze,
       seed: origin.seed,
       mazeKey: keyOf(about),

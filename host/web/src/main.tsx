@@ -11,8 +11,8 @@ import { Picker } from "./picker";
 import { PANES_MAX, Player } from "./player";
 import { visible } from "./text";
 
-/** Larger files are no replays: the largest journal has 64 MiB. */
-const FILE_BYTES_MAX = 200 * 1024 * 1024;
+/** As in the core: no replay is larger. */
+const FILE_BYTES_MAX = 16 * 1024 * 1024;
 
 /** The address follows the match when it has not moved for so long, in milliseconds. */
 const ADDRESS_MS = 300;

@@ -15,8 +15,6 @@ pub const NOTES_MAX: usize = 200_000;
 pub struct Origin {
     /// The name of the robot.
     pub robot: String,
-    /// The name of its variant; may be empty.
-    pub variant: String,
     /// The name of the maze.
     pub maze: String,
     /// The seed, in decimal: it may be larger than the numbers of JavaScript.

@@ -5,7 +5,9 @@ use wasmouse_core::journal::Journal;
 use wasmouse_core::maze::Maze;
 use wasmouse_core::playback::Playback;
 use wasmouse_core::record::{Transcript, trace};
+use wasmouse_core::replay::Replay;
 
+use crate::about::Origin;
 use crate::open::OpenMatch;
 
 /// Steps at most. No bundled ruleset allows more than 2,000; memory is computed for each step.
@@ -51,6 +53,23 @@ pub fn read_match(bytes: &[u8]) -> Result<OpenMatch, String> {
     let (result, trace) = trace(&maze, &rules, &transcript).map_err(|error| error.to_string())?;
     let playback = Playback::new(maze, rules, trace, result.verdict, Journal::default());
     Ok(OpenMatch::new(playback, None))
+}
+
+/// Reads a replay file, which is checked by that: its digests, and its record by playing it.
+///
+/// # Errors
+///
+/// A message that says where the file is damaged.
+pub fn read_replay(bytes: &[u8]) -> Result<OpenMatch, String> {
+    let replay: Replay = serde_json::from_slice(bytes).map_err(|error| error.to_string())?;
+    let parts = replay.parts();
+    check_length(&parts.transcript)?;
+    let origin = Origin {
+        robot: parts.robot.clone(),
+        maze: parts.maze_name.clone(),
+        seed: parts.record.key.seed.to_string(),
+    };
+    Ok(OpenMatch::new(replay.playback(), Some(origin)))
 }
 
 fn check_length(transcript: &Transcript) -> Result<(), String> {

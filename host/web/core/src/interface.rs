@@ -36,6 +36,12 @@ pub extern "C" fn open_match() -> u32 {
     with(Session::open_match)
 }
 
+/// Opens the replay file in the input. Returns its handle, or 0.
+#[unsafe(no_mangle)]
+pub extern "C" fn open_replay() -> u32 {
+    with(Session::open_replay)
+}
+
 /// Outputs what there is to say about a match. Returns 1, or 0.
 #[unsafe(no_mangle)]
 pub extern "C" fn about(handle: u32) -> u32 {

@@ -17,6 +17,7 @@
 //! | function | result | output |
 //! |---|---|---|
 //! | `open_match()` | a handle | none; the input is what [`input::read_match`] reads |
+//! | `open_replay()` | a handle | none; the input is a [replay](wasmouse_core::replay) file |
 //! | `about(handle)` | 1 | [`About`](about::About) as JSON |
 //! | `poses(handle)` | 1 | for each position 4 bytes: run, x, y, heading |
 //! | `audit(handle)` | 1 | for each position 3 numbers: new walls, optimistic, pessimistic |

@@ -1,10 +1,12 @@
 //! [`Session`]: the buffers and the open matches of an instance.
 
+use wasmouse_core::replay::BYTES_MAX;
+
 use crate::input;
 use crate::open::OpenMatch;
 
-/// The largest input, in bytes: a replay file with the largest journal is smaller.
-const INPUT_MAX: u32 = 256 << 20;
+/// The largest input, in bytes.
+const INPUT_MAX: u64 = BYTES_MAX;
 
 /// Open matches at most; a page shows four.
 const OPEN_MAX: usize = 64;
@@ -22,7 +24,7 @@ impl Session {
     pub fn reserve(&mut self, length: u32) -> *mut u8 {
         self.input.clear();
         let length_usize = length as usize;
-        if length > INPUT_MAX || self.input.try_reserve_exact(length_usize).is_err() {
+        if u64::from(length) > INPUT_MAX || self.input.try_reserve_exact(length_usize).is_err() {
             return std::ptr::null_mut();
         }
         self.input.resize(length_usize, 0);
@@ -38,6 +40,12 @@ impl Session {
     pub fn open_match(&mut self) -> u32 {
         let input = std::mem::take(&mut self.input);
         self.add(input::read_match(&input))
+    }
+
+    /// Opens a replay file.
+    pub fn open_replay(&mut self) -> u32 {
+        let input = std::mem::take(&mut self.input);
+        self.add(input::read_replay(&input))
     }
 
     fn add(&mut self, opened: Result<OpenMatch, String>) -> u32 {

@@ -35,7 +35,11 @@ pub fn html(report: &ContestReport<'_>) -> String {
     let player = Player::new(&view);
     let player = player.as_ref();
     let sections = [
-        ("standings", "Standings", standings::standings(&view)),
+        (
+            "standings",
+            "Standings",
+            standings::standings(&view, player),
+        ),
         ("watch", "Watch", player.map(|it| it.section(&view))),
         ("comparisons", "Comparisons", standings::comparisons(&view)),
         ("not-ranked", "Not ranked", standings::unranked(&view)),

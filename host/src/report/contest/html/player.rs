@@ -117,6 +117,22 @@ impl Player {
         self.positions.get(&place).copied()
     }
 
+    /// The position of a robot's match with the smallest regret; without a finished one, of its
+    /// first.
+    pub(super) fn best(&self, view: &View<'_>, robot: usize) -> Option<usize> {
+        let matrix = view.matrix();
+        let regret = |place: &Place| {
+            let played = matrix.get(robot, place.maze, place.seed)?;
+            let score = played.score(&matrix.rules)?.thousandths();
+            let oracle = view.maze(place.maze).oracle?.thousandths();
+            Some(score.saturating_sub(oracle))
+        };
+        let of_robot = self.positions.iter().filter(|(it, _)| it.robot == robot);
+        of_robot
+            .min_by_key(|(place, position)| (regret(place).unwrap_or(u64::MAX), **position))
+            .map(|(_, position)| *position)
+    }
+
     /// The section that the script fills.
     pub(super) fn section(&self, view: &View<'_>) -> Markup {
         let played = view.matches_played();
