@@ -41,8 +41,8 @@ mod samples;
 mod setup;
 mod study;
 mod terminal;
-
 mod trial;
+mod tui;
 mod verdict;
 mod verify;
 mod watch;
@@ -82,7 +82,7 @@ enum Command {
     Contest(contest::Args),
     Robots(robot_list::Args),
     Inspect(inspect::Args),
-    /// Check, convert, draw, solve and generate mazes
+    /// Check, convert, draw, edit, solve and generate mazes
     Maze(maze::Args),
     New(new::Args),
     Build(build::Args),
