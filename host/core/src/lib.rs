@@ -7,7 +7,9 @@
 //! - [`journal`]: log lines, colours and labels of a robot;
 //! - [`record`]: the identity of a match ([`MatchKey`](record::MatchKey)), its outcome
 //!   ([`MatchRecord`](record::MatchRecord)) and the robot's actions
-//!   ([`Transcript`](record::Transcript)).
+//!   ([`Transcript`](record::Transcript));
+//! - [`knowledge`]: what a robot could know at every step;
+//! - [`playback`]: a match at any step, for those who show it.
 //!
 //! The crate does not use WebAssembly, files, threads or clocks, so that a web page, a
 //! terminal player or a coordinator on another machine can use it. It compiles for
@@ -49,7 +51,9 @@ mod fuzz;
 pub mod fuzz;
 pub mod game;
 pub mod journal;
+pub mod knowledge;
 pub mod maze;
+pub mod playback;
 pub mod record;
 
 pub use digest::{Digest, DigestBuilder, ParseDigestError};

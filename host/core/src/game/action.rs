@@ -1,7 +1,7 @@
 //! The input and output of a robot in a step: [`Sensors`] and [`Action`], as in
 //! `wit/robot.wit`.
 
-use crate::maze::Turn;
+use crate::maze::{Cell, Heading, Maze, Turn};
 
 /// The readings before a step: the number of open cells to the nearest wall in three
 /// directions, relative to the robot's heading. Range of each: 0 to the maze size - 1.
@@ -13,6 +13,22 @@ pub struct Sensors {
     pub front: u8,
     /// Open cells to the right.
     pub right: u8,
+}
+
+impl Sensors {
+    /// The readings of a robot in that cell and heading.
+    ///
+    /// # Panics
+    ///
+    /// If the cell is outside the maze.
+    pub fn at(maze: &Maze, cell: Cell, heading: Heading) -> Self {
+        let reach = |turn| maze.reach(cell, heading.turned(turn));
+        Self {
+            left: reach(Turn::Left),
+            front: reach(Turn::Straight),
+            right: reach(Turn::Right),
+        }
+    }
 }
 
 /// What a robot does in a step.

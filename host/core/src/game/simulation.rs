@@ -123,12 +123,7 @@ impl<'a> Simulation<'a> {
 
     /// The readings at the robot's cell and heading.
     pub fn sense(&self) -> Sensors {
-        let reach = |turn| self.maze.reach(self.cell, self.heading.turned(turn));
-        Sensors {
-            left: reach(Turn::Left),
-            front: reach(Turn::Straight),
-            right: reach(Turn::Right),
-        }
+        Sensors::at(self.maze, self.cell, self.heading)
     }
 
     /// Whether the match has ended: finished, or its budget used up.

@@ -1,7 +1,7 @@
 //! [`Trace`]: all steps of a match with their readings and events.
 
 use super::{Action, Event, Run, Sensors, Simulation};
-use crate::maze::{Cell, Heading};
+use crate::maze::{Cell, Heading, Maze};
 
 /// One step: the state before it, the readings, the robot's action, and its effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -18,6 +18,17 @@ pub struct Step {
     pub action: Action,
     /// The effect of the action.
     pub event: Event,
+}
+
+impl Step {
+    /// The run, cell and heading after the step.
+    pub fn end(&self, maze: &Maze) -> (Run, Cell, Heading) {
+        match self.event {
+            Event::Moved { cell, heading, .. } => (self.run, cell, heading),
+            Event::Reset => (Run::Speed, maze.start(), Heading::Up),
+            Event::ResetBeforeGoal | Event::ResetInSpeedRun => (self.run, self.cell, self.heading),
+        }
+    }
 }
 
 /// All steps of a match, in order, with every reading and event.
@@ -102,7 +113,7 @@ impl Trace {
 mod tests {
     use super::*;
     use crate::game::GameRules;
-    use crate::maze::{Maze, Turn, Walls};
+    use crate::maze::{Turn, Walls};
 
     /// Recorded matches are identified by these bytes.
     #[test]

@@ -108,7 +108,7 @@ impl Walls {
 
     /// The edges between two cells, each once: the cell below or to the left of the edge, and
     /// its side, up or right. In the order of [`Walls::cells`], up first.
-    pub(super) fn edges(&self) -> impl Iterator<Item = (Cell, Heading)> + use<> {
+    pub fn edges(&self) -> impl Iterator<Item = (Cell, Heading)> + use<> {
         let n = self.dimension;
         self.cells().flat_map(move |cell| {
             let up = (cell.y + 1 < n).then_some((cell, Heading::Up));
