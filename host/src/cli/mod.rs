@@ -13,6 +13,7 @@ mod completions;
 mod contest;
 mod demo;
 mod doctor;
+mod drive;
 mod exit;
 mod explain;
 mod fail_under;
@@ -30,6 +31,7 @@ mod output;
 mod page;
 mod pattern;
 mod play;
+pub mod player;
 mod profile;
 mod project;
 mod reproduce;
@@ -45,7 +47,6 @@ mod trial;
 mod tui;
 mod verdict;
 mod verify;
-mod watch;
 mod worker;
 
 use std::process::ExitCode;
@@ -74,6 +75,7 @@ enum Command {
     Demo(demo::Args),
     Run(run::Args),
     Profile(profile::Args),
+    Drive(drive::Args),
     Grade(grade::Args),
     Compare(compare::Args),
     Study(study::Args),
@@ -129,6 +131,7 @@ fn command() -> ExitCode {
         Command::Demo(args) => demo::run(&args),
         Command::Run(args) => run::run(&args),
         Command::Profile(args) => profile::run(&args),
+        Command::Drive(args) => drive::run(&args),
         Command::Grade(args) => grade::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Study(args) => study::run(&args),

@@ -122,14 +122,28 @@ impl Scene {
 
     /// The wall on one side of a cell; closed at the perimeter and outside.
     pub fn wall(&self, cell: Cell, side: Heading) -> Wall {
-        let (cell, place) = match side {
-            Heading::Up => (Some(cell), 0),
-            Heading::Right => (Some(cell), 1),
-            Heading::Down => (cell.step(Heading::Down), 0),
-            Heading::Left => (cell.step(Heading::Left), 1),
-        };
-        let index = cell.and_then(|cell| self.index(cell));
-        index.map_or(Wall::Closed, |index| self.walls[index][place])
+        let place = self.place(cell, side);
+        place.map_or(Wall::Closed, |(index, side)| self.walls[index][side])
+    }
+
+    /// Shows the wall on one side of a cell, for both its cells. The perimeter stays closed, and
+    /// what is outside is ignored.
+    pub fn set_wall(&mut self, cell: Cell, side: Heading, wall: Wall) {
+        if let Some((index, place)) = self.place(cell, side) {
+            self.walls[index][place] = wall;
+        }
+    }
+
+    /// Where a wall between two cells is kept.
+    fn place(&self, cell: Cell, side: Heading) -> Option<(usize, usize)> {
+        let neighbor = cell.step(side)?;
+        let (here, there) = (self.index(cell)?, self.index(neighbor)?);
+        Some(match side {
+            Heading::Up => (here, 0),
+            Heading::Right => (here, 1),
+            Heading::Down => (there, 0),
+            Heading::Left => (there, 1),
+        })
     }
 
     fn index(&self, cell: Cell) -> Option<usize> {

@@ -1,16 +1,14 @@
-//! [`Editor`]: what keys and the mouse do. [`view`](super::view) draws it.
+//! [`Editor`]: what keys and the mouse do.
 
-use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::{
-    Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
+    KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
 };
 use wasmouse_core::maze::{Cell, Heading, Maze};
 
-use super::super::super::tui::{App, Camera, Flow, Look, Viewport};
+use super::super::super::tui::{Camera, Flow, Look, Viewport};
 use super::board::Board;
 use super::facts::Facts;
 use super::file::{MazeFile, NotSaved};
-use super::view;
 use crate::report::text::{Text, text};
 
 /// Which optimal path is shown.
@@ -86,7 +84,8 @@ impl Editor {
         }
     }
 
-    fn key(&mut self, key: KeyEvent) -> Flow {
+    /// What a key does.
+    pub fn key(&mut self, key: KeyEvent) -> Flow {
         if let Some(asking) = self.asking {
             return self.answer(asking, key);
         }
@@ -165,7 +164,11 @@ impl Editor {
         Flow::Go
     }
 
-    fn mouse(&mut self, mouse: MouseEvent) {
+    /// What the mouse does.
+    pub fn mouse(&mut self, mouse: MouseEvent) {
+        if self.asking.is_some() || self.help {
+            return;
+        }
         let hit = || self.viewport?.hit(mouse.column, mouse.row);
         match mouse.kind {
             MouseEventKind::Down(MouseButton::Left) => {
@@ -284,21 +287,6 @@ impl Editor {
     }
 }
 
-impl App for Editor {
-    fn draw(&mut self, buffer: &mut Buffer) {
-        view::draw(self, buffer);
-    }
-
-    fn event(&mut self, event: &Event) -> Flow {
-        match event {
-            Event::Key(key) if key.kind != KeyEventKind::Release => return self.key(*key),
-            Event::Mouse(mouse) if self.asking.is_none() && !self.help => self.mouse(*mouse),
-            _ => {}
-        }
-        Flow::Go
-    }
-}
-
 /// The direction of an arrow key, also of those that some prefer.
 const fn arrow(code: KeyCode) -> Option<Heading> {
     match code {
@@ -361,17 +349,16 @@ mod tests {
 
     #[test]
     fn the_mouse_toggles_the_wall_that_it_points_at() {
-        use ratatui::crossterm::event::MouseEvent;
         let (_folder, mut editor) = editor();
         screen_of(&mut editor, 80, 24);
         let view = editor.viewport.expect("it was drawn");
         let mouse = |editor: &mut Editor, kind, column, row| {
-            editor.event(&Event::Mouse(MouseEvent {
+            editor.mouse(MouseEvent {
                 kind,
                 column,
                 row,
                 modifiers: KeyModifiers::NONE,
-            }));
+            });
         };
         let places: Vec<(u16, u16)> = (0..24).flat_map(|y| (0..80).map(move |x| (x, y))).collect();
         let place = |cell, side| {

@@ -45,13 +45,13 @@ pub fn draw(editor: &mut Editor, buffer: &mut Buffer) {
         height: 1,
         ..screen
     };
-    title(editor, &mut Writer::new(buffer, row(screen, 0), look));
     let scene = scene(editor);
     let view = editor
         .camera
         .viewport(scene.dimension, maze_area, editor.cursor);
     editor.viewport = Some(view);
     draw_maze(&scene, &view, look, buffer);
+    title(editor, &mut Writer::new(buffer, row(screen, 0), look));
     panel(editor, &mut Writer::new(buffer, panel_area, look));
     foot(editor, &mut Writer::new(buffer, footer, look));
     if editor.help {
@@ -142,10 +142,15 @@ fn title(editor: &Editor, writer: &mut Writer<'_>) {
         true => ("  modified", Role::Warning),
         false => ("", Role::Plain),
     };
+    let part = match editor.viewport {
+        Some(view) if view.is_cut() => "  (part of it)",
+        _ => "",
+    };
     // The end of a long path says more than its beginning.
     writer.line(&[
         (&file_name(path.as_str()), Role::Strong),
         (&about, Role::Plain),
+        (part, Role::Faint),
         state,
     ]);
 }
@@ -253,6 +258,9 @@ fn panel(editor: &Editor, writer: &mut Writer<'_>) {
         false => format!("open {}", open.join(", ")),
     };
     writer.text(&format!("cell {}: {open}", editor.cursor));
+    if let (undo @ 1.., redo) | (undo, redo @ 1..) = editor.board.history() {
+        writer.line(&[(&format!("{undo} to undo, {redo} to redo"), Role::Faint)]);
+    }
 }
 
 fn length(path: &Path) -> String {
