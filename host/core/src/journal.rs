@@ -10,6 +10,7 @@ use crate::maze::{Cell, Heading};
 
 /// The importance of a log line, as in the WIT.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Level {
     /// For the author of the robot.
     Debug,
@@ -23,6 +24,7 @@ pub enum Level {
 
 /// A colour for a cell, as in the WIT.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[expect(missing_docs, reason = "the colours name themselves")]
 pub enum Color {
     None,
@@ -38,6 +40,7 @@ pub enum Color {
 
 /// A robot's belief about a wall, as in the WIT.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Belief {
     /// The robot does not know.
     Unknown,

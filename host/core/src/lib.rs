@@ -9,7 +9,8 @@
 //!   ([`MatchRecord`](record::MatchRecord)) and the robot's actions
 //!   ([`Transcript`](record::Transcript));
 //! - [`knowledge`]: what a robot could know at every step;
-//! - [`playback`]: a match at any step, for those who show it.
+//! - [`playback`]: a match at any step, for those who show it;
+//! - [`replay`]: a match in a file, to be watched without the robot.
 //!
 //! The crate does not use WebAssembly, files, threads or clocks, so that a web page, a
 //! terminal player or a coordinator on another machine can use it. It compiles for
@@ -55,5 +56,6 @@ pub mod knowledge;
 pub mod maze;
 pub mod playback;
 pub mod record;
+pub mod replay;
 
 pub use digest::{Digest, DigestBuilder, ParseDigestError};

@@ -25,7 +25,10 @@ impl GameResult {
     pub fn new(simulation: &Simulation<'_>, ending: &Ending) -> Result<Self, ReplayError> {
         let verdict = match (ending, simulation.verdict()) {
             (Ending::Rules, Some(verdict)) => verdict,
-            (Ending::Rules, None) => return Err(ReplayError::Unfinished),
+            (Ending::Rules, None) => {
+                let step = simulation.steps().total();
+                return Err(ReplayError::Unfinished { step });
+            }
             (Ending::Fault { .. }, Some(_)) => return Err(ReplayError::FaultAfterEnd),
             (
                 Ending::Fault {
@@ -55,11 +58,17 @@ impl GameResult {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ReplayError {
     /// There are actions after the end of the match.
-    #[error("the transcript has actions after the end of the match")]
-    ActionAfterEnd,
+    #[error("the transcript has actions after the end of the match, which is step {step}")]
+    ActionAfterEnd {
+        /// The number of the last step, counted from 1.
+        step: u32,
+    },
     /// There are too few actions to end the match.
-    #[error("the transcript ends before the match does")]
-    Unfinished,
+    #[error("the transcript ends after step {step}, before the match does")]
+    Unfinished {
+        /// The number of the last step, counted from 1; 0 if there is none.
+        step: u32,
+    },
     /// There is a fault, but the match has ended by the rules.
     #[error("the transcript has a fault after the end of the match")]
     FaultAfterEnd,
@@ -83,7 +92,7 @@ pub enum ReplayError {
 /// let rules = GameRules { budget: 2, ..GameRules::default() };
 /// let mut transcript = Transcript::default();
 /// transcript.push(Action::Reset);
-/// assert_eq!(replay(&maze, &rules, &transcript), Err(ReplayError::Unfinished));
+/// assert_eq!(replay(&maze, &rules, &transcript), Err(ReplayError::Unfinished { step: 1 }));
 /// transcript.push(Action::Reset);
 /// let result = replay(&maze, &rules, &transcript).expect("a whole match");
 /// assert_eq!(result.counts.resets_before_goal, 2);
@@ -139,7 +148,8 @@ fn play(
     let mut simulation = Simulation::new(maze, rules);
     for action in transcript.actions() {
         if simulation.has_ended() {
-            return Err(ReplayError::ActionAfterEnd);
+            let step = simulation.steps().total();
+            return Err(ReplayError::ActionAfterEnd { step });
         }
         apply(&mut simulation, action);
     }
@@ -182,8 +192,8 @@ mod tests {
     #[test]
     fn impossible_transcripts_are_rejected() {
         check(3, None, Ok(3));
-        check(2, None, Err(ReplayError::Unfinished));
-        check(4, None, Err(ReplayError::ActionAfterEnd));
+        check(2, None, Err(ReplayError::Unfinished { step: 2 }));
+        check(4, None, Err(ReplayError::ActionAfterEnd { step: 3 }));
         check(2, Some(Phase::NextMove), Ok(2));
         check(0, Some(Phase::Start), Ok(0));
         check(0, Some(Phase::Unknown), Ok(0));
