@@ -28,7 +28,11 @@ pub fn result(driver: &Driver<'_>) -> Vec<(String, Role)> {
         Some(verdict) => vec![(verdict.title().into_owned(), Role::Bad), oracle_line],
         None => {
             let total = steps.total();
-            vec![(format!("given up after {total} steps: no score"), Role::Bad)]
+            let steps = if total == 1 { "step" } else { "steps" };
+            vec![(
+                format!("given up after {total} {steps}: no score"),
+                Role::Bad,
+            )]
         }
     }
 }

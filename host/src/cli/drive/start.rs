@@ -1,5 +1,7 @@
 //! The arguments of `wasmouse drive`.
 
+use std::path::PathBuf;
+
 use wasmouse_core::game::{GameRules, Ruleset, Verdict};
 use wasmouse_core::journal::Journal;
 use wasmouse_core::maze::Maze;
@@ -8,11 +10,13 @@ use wasmouse_core::playback::Playback;
 use super::super::exit::Exit;
 use super::super::failure::Failure;
 use super::super::mazes::{self, Legality};
+use super::super::output::{Draft, Existing, message};
 use super::super::player::{self, Show};
 use super::super::{output, setup, terminal, tui};
 use super::driver::Driver;
 use super::outcome::result;
-use crate::report::text::text;
+use super::replay_file::{self, DRIVER};
+use crate::report::text::{Text, text};
 
 const LONG_HELP: &str = "\
 The arrow keys turn and drive: up straight ahead, left and right after a quarter
@@ -23,11 +27,12 @@ far; with --blind there is none. `?` shows all keys.
 Examples:
   wasmouse drive test_maze_01
   wasmouse drive gen:tree:16:7 --blind
+  wasmouse drive test_maze_01 --replay mine.replay.json
 
 Exit codes:
   0  the match ended, or was given up
   2  there is no terminal
-  3  the maze cannot be read";
+  3  the maze cannot be read, or the replay file already exists";
 
 /// Drive through a maze by hand, and be scored like a robot
 ///
@@ -45,6 +50,12 @@ pub struct Args {
     /// Show no map: only readings, steps, and whether the goal was reached
     #[arg(long)]
     blind: bool,
+    /// Write the match to a replay file, if it is driven to its end
+    #[arg(long, value_name = "FILE")]
+    replay: Option<PathBuf>,
+    /// Overwrite the replay file if it exists
+    #[arg(long, requires = "replay")]
+    force: bool,
     /// Accept a maze that breaks contest rules
     #[arg(long)]
     lenient: bool,
@@ -73,6 +84,10 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
             count
         )));
     };
+    let existing = Existing::from_flag(args.force);
+    let draft = args.replay.as_ref();
+    let draft = draft.map(|path| Ok((path, Draft::create(path, existing)?)));
+    let draft = draft.transpose()?;
     let rules = args.rules.game;
     let mut driver = Driver::new(
         named.name.clone(),
@@ -87,6 +102,14 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     }
     let lines: Vec<String> = result(&driver).into_iter().map(|(line, _)| line).collect();
     output::print(&format!("{}\n", lines.join("\n")))?;
+    if let Some((path, draft)) = draft {
+        if driver.verdict().is_some() {
+            replay_file::save(draft, path, &driver, (&named.maze, &args.rules))?;
+            message!("wrote {}", Text::of_path(path));
+        } else {
+            message!("no replay was written: the match did not end");
+        }
+    }
     match (driver.wants_to_watch, driver.verdict()) {
         (true, Some(verdict)) => watch(&driver, &named.maze, rules, verdict, args.ascii),
         _ => Ok(exit),
@@ -110,5 +133,5 @@ fn watch(
         what: WHAT,
         hint: HINT,
     };
-    player::play(vec![Show::new("you", &driver.name, playback)], &options)
+    player::play(vec![Show::new(DRIVER, &driver.name, playback)], &options)
 }
