@@ -40,6 +40,8 @@ pub enum Role {
     Heat(u8),
     /// A painted cell.
     Paint(Paint),
+    /// The letter of a colour, where filling the cell would hide its walls.
+    Ink(Paint),
 }
 
 /// Levels of heat above cold.
@@ -81,7 +83,7 @@ impl Look {
         let style = Style::new();
         let style = match role {
             Role::Plain | Role::Path | Role::Optimum | Role::Good | Role::Heat(_) => style,
-            Role::Paint(_) => style,
+            Role::Paint(_) | Role::Ink(_) => style,
             Role::Faint => style.add_modifier(Modifier::DIM),
             Role::Strong | Role::Robot | Role::Bad | Role::Warning => {
                 style.add_modifier(Modifier::BOLD)
@@ -104,6 +106,7 @@ impl Look {
                 let text = if is_light { WHITE } else { BLACK };
                 style.bg(Color::Indexed(background)).fg(text)
             }
+            Role::Ink(paint) => style.fg(Color::Indexed(paint_color(paint))),
             Role::Paint(paint) => style.bg(Color::Indexed(paint_color(paint))).fg(BLACK),
         }
     }

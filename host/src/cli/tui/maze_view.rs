@@ -162,7 +162,7 @@ impl Canvas<'_> {
             }
         }
         let who = self.who(cell, mark);
-        let who_style = who.map(|(_, role)| background.patch(self.look.style(role)));
+        let who_style = who.map(|(_, role)| self.on_background(mark, background, role));
         let columns = usize::from(place.width);
         // The letter of the colour is in the last column, which no other content gets.
         let letter = mark.paint.map(|paint| (paint.letter(), background));
@@ -282,9 +282,9 @@ impl Canvas<'_> {
 
     fn background(&self, cell: Cell, mark: &Mark) -> Style {
         let role = match (mark.paint, mark.heat) {
-            (Some(paint), _) => Role::Paint(paint),
-            (None, Some(level)) => Role::Heat(level),
-            (None, None) => Role::Plain,
+            (Some(paint), _) if !self.is_small() => Role::Paint(paint),
+            (_, Some(level)) => Role::Heat(level),
+            _ => Role::Plain,
         };
         let style = self.look.style(role);
         if self.scene.cursor == Some(cell) {
@@ -292,6 +292,23 @@ impl Canvas<'_> {
         } else {
             style
         }
+    }
+
+    /// The style of something on the background of its cell: a colour would be hard to see on
+    /// another, so there the robot is reversed and everything else as the text.
+    fn on_background(&self, mark: &Mark, background: Style, role: Role) -> Style {
+        let is_painted = mark.paint.is_some() && !self.is_small();
+        let is_filled = self.look.color && (is_painted || mark.heat.is_some());
+        match role {
+            _ if !is_filled => background.patch(self.look.style(role)),
+            Role::Robot => background.add_modifier(Modifier::REVERSED | Modifier::BOLD),
+            Role::Plain | Role::Faint | Role::Ink(_) => background,
+            _ => background.add_modifier(Modifier::BOLD),
+        }
+    }
+
+    fn is_small(&self) -> bool {
+        self.view.zoom == Zoom::Small
     }
 
     /// The character that stands for the heat of a cell where nothing else is.
@@ -344,16 +361,18 @@ impl Canvas<'_> {
         let background = self.background(cell, mark);
         let floor = self.scene.wall(cell, Heading::Down);
         let written = || self.written(mark, 1).chars().next();
-        let letter = mark.paint.map(|paint| (paint.letter(), Role::Plain));
+        // Filled cells without lines between them would hide where the walls are.
+        let ink = mark.paint.map_or(Role::Plain, Role::Ink);
+        let letter = mark.paint.map(|paint| (paint.letter(), ink));
         let content = self
             .who(cell, mark)
             .filter(|&(_, role)| role != Role::Faint)
-            .or_else(|| written().map(|it| (one_column(it), Role::Plain)))
+            .or_else(|| written().map(|it| (one_column(it), ink)))
             .or(letter)
             .or_else(|| self.shade(mark).map(|shade| (shade, Role::Plain)));
         match (content, floor) {
             (Some((character, role)), floor) => {
-                let style = background.patch(self.look.style(role));
+                let style = self.on_background(mark, background, role);
                 let underlined = floor == Wall::Closed;
                 let style = if underlined {
                     style.add_modifier(Modifier::UNDERLINED)
