@@ -84,6 +84,8 @@ mod recursion;
 mod reference;
 /// Rejections that depend on the limits or the version.
 mod rejections;
+/// Replays: written, audited, damaged.
+mod replay;
 /// The results document against its JSON Schema.
 mod results_schema;
 /// The example robots, natively, in mazes of every size and shape.

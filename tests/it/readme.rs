@@ -10,9 +10,12 @@ const README: &str = include_str!("../../README.md");
 
 /// The shell blocks of the README with this word behind `sh`.
 fn blocks(kind: &str) -> Vec<&'static str> {
+    blocks_of(README, kind)
+}
+
+fn blocks_of(text: &'static str, kind: &str) -> Vec<&'static str> {
     let opening = format!("```sh {kind}\n");
-    README
-        .split(&opening)
+    text.split(&opening)
         .skip(1)
         .map(|rest| rest.split("```").next().expect("split yields one part"))
         .collect()
@@ -64,6 +67,21 @@ fn the_tutorial_works_to_the_letter() {
     // The project's own test, which needs no WebAssembly.
     let test = "cd my-robot && cargo test";
     assert!(run(test, folder.path()).contains("finishes_the_first_maze ... ok"));
+}
+
+/// What the page says an audit prints, it prints.
+#[test]
+fn replays_are_kept_and_audited_as_documented() {
+    const REPLAYS: &str = include_str!("../../docs/REPLAYS.md");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let blocks = blocks_of(REPLAYS, "replay");
+    assert_eq!(blocks.len(), 3);
+    let printed = blocks.iter().map(|block| run(block, folder.path()));
+    let audit = printed.last().expect("three blocks");
+    for line in audit.lines() {
+        assert!(REPLAYS.contains(line.trim_end()), "{line}");
+    }
+    assert_eq!(audit.lines().count(), 5);
 }
 
 #[test]

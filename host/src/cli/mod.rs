@@ -22,6 +22,7 @@ mod grade;
 mod input;
 mod inspect;
 mod interrupt;
+mod keep;
 mod log;
 mod man;
 mod maze;
@@ -34,6 +35,8 @@ mod play;
 pub mod player;
 mod profile;
 mod project;
+mod replay;
+mod replays;
 mod reproduce;
 mod resolve;
 mod robot_list;
@@ -41,6 +44,7 @@ mod robots;
 mod run;
 mod samples;
 mod setup;
+mod store_failure;
 mod study;
 mod terminal;
 mod trial;
@@ -80,6 +84,7 @@ enum Command {
     Compare(compare::Args),
     Study(study::Args),
     Verify(verify::Args),
+    Replay(replay::Args),
     /// Run contests that are described by a contest file
     Contest(contest::Args),
     Robots(robot_list::Args),
@@ -136,6 +141,7 @@ fn command() -> ExitCode {
         Command::Compare(args) => compare::run(&args),
         Command::Study(args) => study::run(&args),
         Command::Verify(args) => verify::run(&args),
+        Command::Replay(args) => replay::run(&args),
         Command::Contest(args) => contest::run(&args),
         Command::Robots(args) => robot_list::run(&args),
         Command::Inspect(args) => inspect::run(&args),

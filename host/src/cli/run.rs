@@ -10,6 +10,7 @@ use wasmouse_engine::LocalExecutor;
 
 use super::exit::Exit;
 use super::failure::Failure;
+use super::keep::{KeepArgs, Keeper};
 use super::mazes::{self, BadFiles, Legality};
 use super::output::{self, Draft, Existing, Stdout, message};
 use super::page::PageBuilder;
@@ -43,6 +44,7 @@ Examples:
   wasmouse run flood test_maze_01 --watch
   wasmouse run flood champion test_maze_01 --watch
   wasmouse run my-robot test_maze_01 --explain
+  wasmouse run flood dfs --replays replays    keeps the best match of each
   wasmouse run my-robot --fail-under finished=95%,regret=12.5,faults=0
 
 Exit codes:
@@ -130,6 +132,8 @@ pub struct Args {
     #[arg(long)]
     ascii: bool,
     #[command(flatten)]
+    keep: KeepArgs,
+    #[command(flatten)]
     setup: SetupArgs,
     #[command(flatten)]
     isolation: IsolationArgs,
@@ -162,7 +166,8 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         jobs: args.setup.jobs(),
         robot_time: args.time.robot_time(),
     };
-    let played = args.play(&plan, &players, &executor, pace, file)?;
+    let mut keeper = args.keep.keeper(&plan)?;
+    let played = args.play(&plan, &players, &executor, pace, (file, keeper.as_mut()))?;
 
     // Results come first, whatever happens to what is replayed for the user afterwards.
     let results = &played.results;
@@ -176,6 +181,11 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     print_faults(&plan, &players, results, (&played.faults, &complaints));
     if let (Some(html), Some(path), Some(page)) = (html, &args.html, played.page) {
         page.write(html, path, &plan, (results.summary.digest, &complaints))?;
+    }
+    if let Some(keeper) = keeper {
+        let players = players.as_slice();
+        args.keep
+            .write(keeper, &plan, players, &executor, existing)?;
     }
     let mut exit = exit(&plan, results);
     if exit == Exit::Interrupted {
@@ -276,7 +286,7 @@ impl Args {
         players: &[Player],
         executor: &LocalExecutor,
         pace: Pace,
-        file: Option<Draft>,
+        (file, keeper): (Option<Draft>, Option<&mut Keeper>),
     ) -> Result<Played, Failure> {
         let contest = ContestInfo::new(plan);
         let mut standings = StandingsBuilder::new(plan, players);
@@ -305,6 +315,7 @@ impl Args {
             vec![&mut standings, &mut summary, &mut faults, &mut list];
         sinks.extend(page.iter_mut().flat_map(PageBuilder::sinks));
         sinks.extend(matrix.as_mut().map(|it| it as &mut dyn Sink));
+        sinks.extend(keeper.map(|it| it as &mut dyn Sink));
         sinks.extend(file.as_mut().map(FileWriter::sink));
         sinks.extend(stdout.as_mut().map(|it| it as &mut dyn Sink));
         play_all(plan, executor, pace, &mut Tee(sinks))?;

@@ -5,6 +5,7 @@
 //! from parts of them. Small JSON documents have structs of their own here, so that the domain
 //! types can change without changing what other programs read.
 
+pub mod audit;
 pub mod backtrace;
 pub mod built;
 pub mod bundled;
@@ -20,6 +21,7 @@ pub mod grade;
 pub mod inspection;
 mod json;
 pub mod jsonl;
+pub mod match_link;
 pub mod maze_check;
 pub mod maze_solve;
 mod moment;

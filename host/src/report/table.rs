@@ -5,6 +5,7 @@ use comfy_table::{
     CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Table, TableStyle,
 };
 use wasmouse_core::record::MatchRecord;
+use wasmouse_core::replay::Replay;
 
 use super::escape;
 use super::standings::{self as standings_text, NONE};
@@ -118,6 +119,37 @@ pub fn matches(
             row.insert(2, record.key.seed.to_string());
         }
         table.add_row(row);
+    }
+    lay_out(table, layout.width) + "\n"
+}
+
+/// Matches that can be watched.
+pub fn replays(replays: &[Replay], layout: Layout) -> String {
+    let columns = [
+        Text("Robot"),
+        Text("Maze"),
+        Number("Seed"),
+        Text("Verdict"),
+        Number("Score"),
+        Number("Exploration"),
+        Number("Speed"),
+        Number("Journal"),
+    ];
+    let mut table = new_table(&columns, layout.lines);
+    for replay in replays {
+        let parts = replay.parts();
+        let (record, steps) = (&parts.record, parts.record.steps);
+        let score = record.verdict.score();
+        table.add_row(vec![
+            escape::for_terminal(&parts.robot),
+            escape::for_terminal(&parts.maze_name),
+            record.key.seed.to_string(),
+            record.verdict.title().into_owned(),
+            score.map_or_else(|| NONE.to_owned(), |score| score.to_string()),
+            steps.exploration.to_string(),
+            steps.speed.to_string(),
+            parts.journal.len().to_string(),
+        ]);
     }
     lay_out(table, layout.width) + "\n"
 }

@@ -18,6 +18,7 @@ mod error;
 mod file;
 mod ids;
 mod integrity;
+mod kept;
 mod keys;
 mod matrix;
 mod mazes;
@@ -40,6 +41,7 @@ mod writer;
 
 pub use error::{StoreError, StoreErrorKind};
 pub use integrity::Integrity;
+pub use kept::{KeptMatch, KeptName};
 pub use keys::MatchKeys;
 pub use matrix::MatrixRequest;
 pub use mazes::{GENERATOR, GeneratedDigests, StoredMaze};

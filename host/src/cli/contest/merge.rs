@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use super::super::exit::Exit;
 use super::super::failure::Failure;
 use super::super::output::{self, message};
-use super::failures::{print_hint, store_failure};
+use super::super::store_failure::store_failure;
+use super::failures::print_hint;
 use crate::report::text::{Text, text};
 use crate::store::{MergeOptions, Store};
 

@@ -5,7 +5,7 @@ use wasmouse_core::record::MatchKey;
 use wasmouse_engine::engine_id;
 
 use super::super::failure::Failure;
-use super::failures::store_failure;
+use super::super::store_failure::store_failure;
 use crate::contest::{Mean, Ranking, ScoreMatrix};
 use crate::report::contest::{MatchPicture, PICTURES_MAX, Pictures};
 use crate::store::Store;

@@ -11,7 +11,7 @@ use wasmouse_engine::admission::Rejection;
 use wasmouse_engine::{AdmissionLimits, engine_id};
 
 use super::super::failure::Failure;
-use super::failures::store_failure;
+use super::super::store_failure::store_failure;
 use super::load::ContestFolder;
 use super::resolve::{self, Resolved, ResolvedRobot};
 use super::shard::Shard;

@@ -10,7 +10,7 @@ use super::super::exit::Exit;
 use super::super::failure::Failure;
 use super::super::input;
 use super::super::output::{self, message};
-use super::failures::store_failure;
+use super::super::store_failure::store_failure;
 use crate::contest::{COMMITMENT_VERSION, Commitment, Opening};
 use crate::report::text::{Text, text};
 use crate::store::Store;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::super::exit::Exit;
 use super::super::failure::Failure;
 use super::super::output;
-use super::failures::store_failure;
+use super::super::store_failure::store_failure;
 use super::load::FILE_NAME;
 use super::planned::PlannedContest;
 use super::shard::Shard;

@@ -4,7 +4,7 @@ use wasmouse_core::maze::generate::GenSpec;
 use wasmouse_core::record::MatchRecord;
 
 use super::super::sample::{Contest, new_store, robot};
-use super::super::{KeptTranscripts, MatchKeys, MatrixRequest, Store};
+use super::super::{KeptName, KeptTranscripts, MatchKeys, MatrixRequest, Store, Submission};
 use crate::contest::{MatchFailure, MatrixRobot, ScoreMatrix, Seeds, Sink as _};
 
 /// Seeds across the border at which their bits change sign.
@@ -254,4 +254,70 @@ fn mazes_are_read_back_whether_generated_or_not() {
         found,
         [Some(contest.digests[0]), Some(contest.digests[1]), None]
     );
+}
+
+#[test]
+fn kept_matches_are_those_with_a_transcript() {
+    let contest = Contest::new(3, 4, SEEDS);
+    for kept in [
+        KeptTranscripts::None,
+        KeptTranscripts::Best,
+        KeptTranscripts::All,
+    ] {
+        let (_folder, mut store) = new_store();
+        contest.store(&mut store, kept, |_, _, _| true);
+        let mut matches = Vec::new();
+        let visited = store.kept_matches(&mut |_| true, &mut |found| {
+            matches.push(found);
+            true
+        });
+        visited.expect("read");
+        let expected = match kept {
+            KeptTranscripts::None => 0,
+            KeptTranscripts::Best => 3,
+            KeptTranscripts::All => 3 * 4 * 5,
+        };
+        assert_eq!(matches.len(), expected, "{kept:?}");
+        for found in &matches {
+            let key = &found.record.key;
+            assert_eq!(
+                store.record(key).expect("read").as_ref(),
+                Some(&found.record)
+            );
+            assert_eq!(
+                store.transcript(key).expect("read").as_ref(),
+                Some(&found.transcript)
+            );
+            assert_eq!(found.maze.digest(), key.maze);
+            assert_eq!(found.rules.digest(), key.rules);
+            // Nobody has submitted these robots.
+            assert!(key.robot.to_string().starts_with(&found.robot));
+        }
+    }
+}
+
+#[test]
+fn kept_matches_are_found_by_name() {
+    let contest = Contest::new(3, 4, SEEDS);
+    let (_folder, mut store) = new_store();
+    contest.store(&mut store, KeptTranscripts::All, |_, _, _| true);
+    let submission = |name: &str, number| Submission {
+        name: name.to_owned(),
+        author: None,
+        class: None,
+        robot: robot(number),
+        variant: 0,
+        rejection: None,
+    };
+    store
+        .submit(&[submission("ann", 0), submission("bob", 1)])
+        .expect("written");
+    let mut found = Vec::new();
+    let mut is_wanted = |name: KeptName<'_>| name.robot == "bob" && name.seed == SEEDS.first;
+    let visited = store.kept_matches(&mut is_wanted, &mut |kept| {
+        found.push((kept.robot, kept.record.key.robot));
+        found.len() < 2
+    });
+    visited.expect("read");
+    assert_eq!(found, vec![("bob".to_owned(), robot(1)); 2]);
 }
