@@ -94,6 +94,10 @@ test("a match plays, pauses, steps back and ends", async () => {
     assert.equal(await page.getByRole("button", { name: "Play", exact: true }).count(), 1, "it stops at the end");
     await page.getByRole("button", { name: "To the start" }).click();
     assert.equal(await drawing(page), first);
+    await page.locator(".w-drawing").click();
+    await page.getByRole("button", { name: "Pause" }).waitFor();
+    await page.locator(".w-drawing").click();
+    await page.getByRole("button", { name: "Play", exact: true }).waitFor();
   });
 });
 
