@@ -169,6 +169,8 @@ fn help_in_two_lengths() {
         "maze solve",
         "maze generate",
         "maze convert",
+        "maze edit",
+        "drive",
         "contest",
         "contest init",
         "contest check",
@@ -332,6 +334,39 @@ fn contests_of_bad_input() {
             "run flood flood test_maze_01",
             "run flood --robot missing --maze test_maze_01",
             "run bad test_maze_01",
+        ],
+    );
+}
+
+/// Commands that fill a terminal, without one and with bad input.
+#[test]
+fn terminal_programs_without_a_terminal() {
+    check(
+        "terminal-programs",
+        &[
+            "drive",
+            "drive test_maze_01",
+            "drive nothing",
+            "drive gen:tree:12:1..=2",
+            "drive small.txt",
+            "drive test_maze_01 --replay small.txt",
+            "drive test_maze_01 --force",
+            "drive test_maze_01 --rules fast",
+            "maze edit",
+            "maze edit small.txt",
+            "maze edit missing.txt",
+            "maze edit test_maze_01",
+            "maze edit broken.txt",
+            "maze edit letter.txt",
+            "maze edit small.txt --new 16",
+            "maze edit new.txt --new 2",
+            "maze edit new.txt --new 65",
+            "maze edit new.txt --new gen:tree:12:1..=2",
+            "maze edit new.txt --new missing",
+            "maze edit new.txt --format num",
+            "maze edit new.txt --new 16",
+            "run flood dfs champion test_maze_01 --watch",
+            "run flood test_maze_01 tree-16 --watch",
         ],
     );
 }

@@ -109,6 +109,8 @@ mod solver;
 mod store;
 /// Results on standard output, and pipes that close.
 mod streams;
+/// Programs that fill the terminal, on a terminal.
+mod terminals;
 /// WebAssembly text as a robot.
 mod text;
 /// Pipes, links and hostile names in folders of submissions.

@@ -10,6 +10,7 @@ mod matches;
 mod mazes;
 mod native;
 mod pairs;
+mod player;
 mod process;
 mod stage;
 mod store;
@@ -24,6 +25,7 @@ fn main() {
     matches::bench(&mut criterion);
     contest::bench(&mut criterion);
     store::bench(&mut criterion);
+    player::bench(&mut criterion);
     criterion.final_summary();
     if targets::are_wanted("targets") {
         targets::print();

@@ -13,6 +13,7 @@ mod completions;
 mod contest;
 mod demo;
 mod doctor;
+mod drive;
 mod exit;
 mod explain;
 mod fail_under;
@@ -31,6 +32,7 @@ mod output;
 mod page;
 mod pattern;
 mod play;
+pub mod player;
 mod profile;
 mod project;
 mod replay;
@@ -45,11 +47,10 @@ mod setup;
 mod store_failure;
 mod study;
 mod terminal;
-
 mod trial;
+mod tui;
 mod verdict;
 mod verify;
-mod watch;
 mod worker;
 
 use std::process::ExitCode;
@@ -78,6 +79,7 @@ enum Command {
     Demo(demo::Args),
     Run(run::Args),
     Profile(profile::Args),
+    Drive(drive::Args),
     Grade(grade::Args),
     Compare(compare::Args),
     Study(study::Args),
@@ -87,7 +89,7 @@ enum Command {
     Contest(contest::Args),
     Robots(robot_list::Args),
     Inspect(inspect::Args),
-    /// Check, convert, draw, solve and generate mazes
+    /// Check, convert, draw, edit, solve and generate mazes
     Maze(maze::Args),
     New(new::Args),
     Build(build::Args),
@@ -134,6 +136,7 @@ fn command() -> ExitCode {
         Command::Demo(args) => demo::run(&args),
         Command::Run(args) => run::run(&args),
         Command::Profile(args) => profile::run(&args),
+        Command::Drive(args) => drive::run(&args),
         Command::Grade(args) => grade::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Study(args) => study::run(&args),

@@ -19,7 +19,7 @@ use super::robots::{self, RobotSpec};
 use super::setup::{IsolationArgs, SeedArgs, SetupArgs, TimeArgs};
 use super::verdict::{exit, print_faults};
 use super::{
-    backtrace, complaints, explain, fail_under, interrupt, log, reproduce, terminal, watch,
+    backtrace, complaints, explain, fail_under, interrupt, log, player, reproduce, terminal,
 };
 use crate::contest::grade::Thresholds;
 use crate::contest::{
@@ -42,6 +42,7 @@ Examples:
   wasmouse run flood dfs gen:tree:16:1..=100  two robots in 100 generated mazes
   wasmouse run random --maze test_maze_01 --repeat 20
   wasmouse run flood test_maze_01 --watch
+  wasmouse run flood champion test_maze_01 --watch
   wasmouse run my-robot test_maze_01 --explain
   wasmouse run flood dfs --replays replays    keeps the best match of each
   wasmouse run my-robot --fail-under finished=95%,regret=12.5,faults=0
@@ -119,10 +120,11 @@ pub struct Args {
     /// backtrace of its fault; for one robot in one maze
     #[arg(long, conflicts_with_all = ["json", "log", "watch"])]
     explain: bool,
-    /// Show the match step by step on the terminal; for one robot in one maze
+    /// Show the match step by step on the terminal; for one robot in one maze, or two
+    /// side by side
     #[arg(long, conflicts_with_all = ["json", "log"])]
     watch: bool,
-    /// Time between the steps that --watch shows, in milliseconds
+    /// Time between the steps that --watch shows, in milliseconds (keys change it)
     #[arg(long, value_name = "MS", default_value_t = 120, requires = "watch",
           value_parser = clap::value_parser!(u64).range(0..=60_000))]
     delay: u64,
@@ -204,7 +206,10 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     }
     if args.watch {
         let delay = Duration::from_millis(args.delay);
-        watch::watch(&plan, &players, &executor, results, delay, args.ascii)?;
+        let shown = player::watch(&plan, &players, &executor, results, delay, args.ascii)?;
+        if shown == Exit::Interrupted {
+            return Ok(shown);
+        }
     }
     if args.reproduce {
         let executor = (&args.isolation, &args.time);

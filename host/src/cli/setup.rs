@@ -140,7 +140,12 @@ impl TimeArgs {
     }
 }
 
-fn rules(name: &str) -> Result<Ruleset, String> {
+/// The ruleset of that name, for clap.
+///
+/// # Errors
+///
+/// When there is none.
+pub fn rules(name: &str) -> Result<Ruleset, String> {
     Ruleset::by_name(name).ok_or_else(|| {
         let names = Ruleset::all().map(|rules| rules.name);
         format!("unknown ruleset; the rulesets are {}", names.join(", "))

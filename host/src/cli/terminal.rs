@@ -5,6 +5,7 @@ use std::io::{IsTerminal as _, stdout};
 
 use anstream::{AutoStream, ColorChoice};
 
+use super::tui::Look;
 use crate::report::picture::{Charset, TextStyle};
 use crate::report::table::{Layout, Lines};
 
@@ -31,6 +32,34 @@ pub fn picture_style(ascii: bool) -> TextStyle {
         },
         color: wants_color(),
     }
+}
+
+/// Programs that fill the terminal: in ASCII if asked for, or if the locale has no Unicode.
+pub fn look(ascii: bool) -> Look {
+    let charset = if ascii || !has_unicode() {
+        Charset::Ascii
+    } else {
+        Charset::Unicode
+    };
+    Look {
+        charset,
+        color: wants_color(),
+    }
+}
+
+/// Whether the locale has Unicode, as far as it says. Containers often set none, and their
+/// terminals have it.
+fn has_unicode() -> bool {
+    let names = ["LC_ALL", "LC_CTYPE", "LANG"];
+    let mut set = names
+        .into_iter()
+        .filter_map(env::var_os)
+        .filter(|it| !it.is_empty());
+    let Some(locale) = set.next() else {
+        return true;
+    };
+    let locale = locale.to_string_lossy().to_ascii_lowercase();
+    cfg!(windows) || locale.contains("utf-8") || locale.contains("utf8")
 }
 
 /// Whether standard output is a terminal that wants colour.

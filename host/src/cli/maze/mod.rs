@@ -2,6 +2,7 @@
 
 mod check;
 mod convert;
+mod edit;
 mod generate;
 mod show;
 mod solve;
@@ -20,6 +21,7 @@ pub struct Args {
 enum Command {
     Check(check::Args),
     Convert(convert::Args),
+    Edit(edit::Args),
     Generate(generate::Args),
     Show(show::Args),
     Solve(solve::Args),
@@ -30,6 +32,7 @@ pub fn run(args: Args) -> Result<Exit, Failure> {
     match args.command {
         Command::Check(args) => check::run(args),
         Command::Convert(args) => convert::run(args),
+        Command::Edit(args) => edit::run(&args),
         Command::Generate(args) => generate::run(args),
         Command::Show(args) => show::run(args),
         Command::Solve(args) => solve::run(args),
