@@ -13,8 +13,19 @@ use crate::binary::{stdout_of, wasmouse};
 const LARGE: &str = "
 version = 1
 name = \"large\"
-robots = [\"flood\", \"champion\", \"minnett\", \"count-expansion\", \"dfs\"]
-mazes = [\"gen:braid:16:1..=200\"]
+[[robots]]
+bundled = \"flood\"
+[[robots]]
+bundled = \"champion\"
+[[robots]]
+bundled = \"minnett\"
+[[robots]]
+bundled = \"count-expansion\"
+[[robots]]
+bundled = \"dfs\"
+[[mazes]]
+set = \"all\"
+paths = [\"gen:braid:16:1..=200\"]
 [run]
 keep_transcripts = \"all\"
 [outputs]
@@ -25,7 +36,10 @@ html = \"out.html\"
 const CENSORED: &str = "
 version = 1
 name = \"censored\"
-robots = [\"flood\", \"dfs\"]
+[[robots]]
+bundled = \"flood\"
+[[robots]]
+bundled = \"dfs\"
 [[mazes]]
 set = \"public\"
 paths = [\"gen:tree:12:1..=3\"]

@@ -126,7 +126,7 @@ function Drawing(props: { player: Player; pane: PaneState; label: string }) {
   useLayoutEffect(() => player.redraw(), [player, pane]);
 
   return (
-    <div class="w-drawing" ref={box}>
+    <div class="w-drawing" ref={box} onClick={() => player.toggle()}>
       <canvas ref={canvas} role="img" aria-label={label} />
     </div>
   );

@@ -22,7 +22,7 @@ test("a match of 1,000 steps seeks within a frame", async () => {
       const times = await page.evaluate(async () => {
         const slider = document.querySelector(".w-slider");
         const times = [];
-        for (let round = 0; round < 120; round += 1) {
+        for (let round = 0; round < 70; round += 1) {
           const step = (round * 617) % 1001;
           const start = performance.now();
           slider.value = String(step);
@@ -40,9 +40,9 @@ test("a match of 1,000 steps seeks within a frame", async () => {
         }
         return times.slice(20).sort((a, b) => a - b);
       });
-      const [median, p95, most] = [times[50], times[95], times.at(-1)].map((it) => it.toFixed(1));
+      const [median, p95, most] = [times[25], times[47], times.at(-1)].map((it) => it.toFixed(1));
       console.log(`seek in 1,000 steps${overlays && " with all overlays"}: median ${median} ms, 95 % ${p95} ms, most ${most} ms`);
-      assert.ok(times[50] < 100, `${median} ms`);
+      assert.ok(times[25] < 100, `${median} ms`);
     }
   });
 });

@@ -207,3 +207,73 @@ fn manifest_path(root: &Path) -> PathBuf {
 fn text(error: io::Error) -> String {
     error.to_string()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A repository that is just large enough.
+    fn repository() -> tempfile::TempDir {
+        let root = tempfile::tempdir().unwrap();
+        let write = |file: &str, text: &str| {
+            let path = root.path().join(file);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, text).unwrap();
+        };
+        for file in SCRIPT_SOURCES.iter().chain(&CORE_SOURCES) {
+            match Path::new(file).extension() {
+                Some(_) => write(file, "source"),
+                None => write(&format!("{file}/file"), "source"),
+            }
+        }
+        for name in [CORE].iter().chain(&SCRIPT) {
+            write(&format!("host/web/prebuilt/{name}"), name);
+        }
+        let manifest = describe(root.path(), "rustc 1.2.3".to_owned()).unwrap();
+        write(
+            "host/web/prebuilt/manifest.toml",
+            &toml::to_string(&manifest).unwrap(),
+        );
+        root
+    }
+
+    #[test]
+    fn what_is_current_has_no_problems() {
+        let root = repository();
+        assert_eq!(problems(root.path()).unwrap(), [""; 0]);
+        assert_eq!(load(root.path()).unwrap().toolchain, "rustc 1.2.3");
+    }
+
+    #[test]
+    fn what_is_stale_is_named() {
+        for (file, problem) in [
+            (
+                "host/web/src/file",
+                "web: the sources of the script have changed",
+            ),
+            (
+                "host/core/src/file",
+                "web: the sources of the core have changed",
+            ),
+            (
+                "host/web/prebuilt/player.js",
+                "web: `player.js` is another file",
+            ),
+        ] {
+            let root = repository();
+            fs::write(root.path().join(file), "changed").unwrap();
+            assert_eq!(problems(root.path()).unwrap(), [problem]);
+        }
+    }
+
+    #[test]
+    fn other_bytes_are_an_error() {
+        let root = repository();
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join(CORE), CORE).unwrap();
+        assert_eq!(compare(root.path(), folder.path(), CORE), Ok(()));
+        fs::write(folder.path().join(CORE), "other").unwrap();
+        let error = compare(root.path(), folder.path(), CORE).unwrap_err();
+        assert!(error.contains("other bytes"), "{error}");
+    }
+}

@@ -232,6 +232,20 @@ mod tests {
         assert_eq!(parsed, names);
     }
 
+    #[test]
+    fn what_a_robot_wrote_is_left_out_with_its_name() {
+        use wasmouse_core::game::{Action, FaultKind, Phase};
+        let mut transcript = Transcript::default();
+        transcript.push(Action::Reset);
+        let detail = "I am Ann's robot".to_owned();
+        transcript.end_with_fault(FaultKind::Panic, Phase::NextMove, detail.clone());
+        assert_eq!(bytes_of(&transcript, false), transcript.to_bytes());
+        let silent = bytes_of(&transcript, true);
+        assert_eq!(silent.len() + detail.len(), transcript.to_bytes().len());
+        let silent = Transcript::from_bytes(&silent).expect("a transcript");
+        assert!(silent.actions().eq(transcript.actions()));
+    }
+
     /// The policy of the page names their digests, and the page is escaped line by line when it is
     /// written.
     #[test]

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::parts::{caption, label, shown};
+use super::parts::{caption, label, playable, shown};
 use super::player::Player;
 use crate::contest::{Mean, RankingLine};
 use crate::report::contest::view::{Part, View, state};
@@ -56,7 +56,7 @@ fn row(view: &View<'_>, player: Option<&Player>, line: &RankingLine, has_classes
         tr {
             td { (words::rank(line)) }
             th.name scope="row" {
-                span data-play=[best] { (label(view.name(line.robot))) }
+                (playable(view.name(line.robot), best))
                 @if let Some(state) = state(robot, line.state) { " (" (state) ")" }
                 @if let Some(author) = view.author(line.robot) {
                     " " span.quiet { "by " (shown(author)) }
