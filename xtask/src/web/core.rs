@@ -49,11 +49,19 @@ pub fn toolchain() -> Result<String, String> {
     run(&["--version"])
 }
 
-/// Names for the folders that messages of panics quote.
+/// Names for the folders that messages of panics quote, the more particular ones last.
 fn path_names(root: &Path) -> Vec<String> {
     let home = env::var_os("CARGO_HOME").map(PathBuf::from);
     let home = home.or_else(|| Some(env::home_dir()?.join(".cargo")));
-    [(home, "/cargo"), (Some(root.to_owned()), "/wasmouse")]
+    let mut names = vec![
+        (home.clone(), "/cargo"),
+        (Some(root.to_owned()), "/wasmouse"),
+    ];
+    // The name of a registry's folder has its host and a hash.
+    let registries = home.and_then(|home| fs::read_dir(home.join("registry/src")).ok());
+    let registries = registries.into_iter().flatten().flatten();
+    names.extend(registries.map(|it| (Some(it.path()), "/crates")));
+    names
         .into_iter()
         .filter_map(|(from, to)| Some(format!("--remap-path-prefix={}={to}", from?.to_str()?)))
         .collect()
