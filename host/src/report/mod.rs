@@ -24,12 +24,12 @@ pub mod jsonl;
 pub mod match_link;
 pub mod maze_check;
 pub mod maze_solve;
-mod moment;
 mod number;
 mod paired;
 mod paths;
 pub mod picture;
 pub mod profile;
+pub mod raster;
 pub mod results_json;
 #[cfg(test)]
 mod sample;
@@ -41,5 +41,4 @@ pub mod table;
 pub mod text;
 pub mod verification;
 
-pub use moment::moment;
 pub use paths::paths;
