@@ -39,6 +39,7 @@ mod standings;
 pub mod study;
 pub mod table;
 pub mod text;
+mod text_width;
 pub mod verification;
 
 pub use paths::paths;
