@@ -5,6 +5,7 @@
 //! from parts of them. Small JSON documents have structs of their own here, so that the domain
 //! types can change without changing what other programs read.
 
+pub mod animation;
 pub mod audit;
 pub mod backtrace;
 pub mod built;
