@@ -29,6 +29,7 @@ mod number;
 mod paired;
 mod paths;
 pub mod picture;
+pub mod plot;
 pub mod profile;
 pub mod raster;
 pub mod results_json;
