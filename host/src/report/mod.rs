@@ -37,6 +37,7 @@ pub mod results_json;
 mod sample;
 #[cfg(test)]
 mod sample_matrix;
+pub mod scene;
 mod standings;
 pub mod study;
 pub mod table;
