@@ -220,10 +220,11 @@ fn draw_texts(player: &Player, area: Rect, buffer: &mut Buffer) {
                 ..area
             }
         } else {
-            let width = area.width / count;
+            // As the mazes above.
+            let width = (area.width - GAP * (count - 1)) / count;
             Rect {
-                x: area.x + place * width,
-                width: width - GAP,
+                x: area.x + place * (width + GAP),
+                width,
                 ..area
             }
         };
