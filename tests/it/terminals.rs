@@ -8,6 +8,7 @@ use std::os::fd::{AsRawFd as _, FromRawFd as _, OwnedFd};
 use std::os::unix::process::CommandExt as _;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -24,6 +25,9 @@ struct Session {
     /// The side of the program, to see how it left the terminal.
     terminal: OwnedFd,
     shown: Arc<Mutex<Shown>>,
+    reader: thread::JoinHandle<()>,
+    /// Whether the person has gone.
+    is_gone: Arc<AtomicBool>,
 }
 
 /// What a program has written, and what a terminal makes of it.
@@ -37,6 +41,11 @@ const ENTER: &str = "\u{1b}[?1049h";
 
 impl Session {
     fn start(folder: &Path, arguments: &[&str]) -> Self {
+        Self::start_with(folder, arguments, libc::SIG_DFL)
+    }
+
+    /// Starts a program with that action for the signal of a closed terminal.
+    fn start_with(folder: &Path, arguments: &[&str], hangup: libc::sighandler_t) -> Self {
         let (mut person, mut program) = (-1, -1);
         let size = window(80, 24);
         // SAFETY: the pointers are to two numbers, nothing, nothing and a size.
@@ -64,12 +73,12 @@ impl Session {
             .stdin(stdio())
             .stdout(stdio())
             .stderr(stdio());
-        let take_terminal = || {
+        let take_terminal = move || {
             // SAFETY: calls that take numbers, and may be made between fork and exec.
             unsafe {
                 libc::setsid();
                 libc::ioctl(0, libc::TIOCSCTTY, 0);
-                libc::signal(libc::SIGHUP, libc::SIG_DFL);
+                libc::signal(libc::SIGHUP, hangup);
             }
             Ok(())
         };
@@ -82,9 +91,23 @@ impl Session {
         }));
         let mut reader = person.try_clone().expect("a descriptor");
         let sink = Arc::clone(&shown);
-        thread::spawn(move || {
+        let is_gone = Arc::new(AtomicBool::new(false));
+        let gone = Arc::clone(&is_gone);
+        let reader = thread::spawn(move || {
             let mut bytes = [0; 4096];
-            while let Ok(count @ 1..) = reader.read(&mut bytes) {
+            while !gone.load(Ordering::SeqCst) {
+                let mut polled = libc::pollfd {
+                    fd: reader.as_raw_fd(),
+                    events: libc::POLLIN,
+                    revents: 0,
+                };
+                // SAFETY: the pointer is to one structure.
+                if unsafe { libc::poll(&raw mut polled, 1, 50) } < 1 {
+                    continue;
+                }
+                let Ok(count @ 1..) = reader.read(&mut bytes) else {
+                    return;
+                };
                 let mut sink = sink.lock().expect("no panic");
                 sink.written.extend_from_slice(&bytes[..count]);
                 sink.terminal.process(&bytes[..count]);
@@ -95,6 +118,26 @@ impl Session {
             keyboard: person,
             terminal,
             shown,
+            reader,
+            is_gone,
+        }
+    }
+
+    /// Closes the terminal, and returns how the program ended.
+    fn close(mut self) -> Option<i32> {
+        self.is_gone.store(true, Ordering::SeqCst);
+        self.reader.join().expect("no panic");
+        drop(self.keyboard);
+        let begin = Instant::now();
+        loop {
+            if let Some(status) = self.child.try_wait().expect("a child") {
+                return status.code();
+            }
+            if begin.elapsed() > Duration::from_secs(60) {
+                self.child.kill().expect("a child");
+                panic!("it goes on without a terminal");
+            }
+            thread::sleep(Duration::from_millis(10));
         }
     }
 
@@ -222,6 +265,32 @@ fn signals_end_it_and_give_the_terminal_back() {
         session.send(signal);
         assert_eq!(session.end().0, Some(code));
     }
+}
+
+/// Whether or not the signal that says so is ignored, as `nohup` does.
+#[test]
+fn a_closed_terminal_ends_it() {
+    for hangup in [libc::SIG_DFL, libc::SIG_IGN] {
+        for keys in ["", " "] {
+            let folder = folder();
+            let mut session = Session::start_with(folder.path(), WATCH, hangup);
+            session.wait_for("exploration run");
+            session.press(keys);
+            assert_eq!(session.close(), Some(129), "{keys:?}");
+        }
+    }
+}
+
+/// The beginning of a key that never comes does not keep the program from ending.
+#[test]
+fn half_of_a_key_holds_nothing_up() {
+    let folder = folder();
+    let mut session = Session::start(folder.path(), WATCH);
+    session.wait_for("exploration run");
+    session.press("\u{1b}[");
+    thread::sleep(Duration::from_millis(300));
+    session.send(libc::SIGTERM);
+    assert_eq!(session.end().0, Some(143));
 }
 
 #[test]
