@@ -2,9 +2,11 @@
 
 #![cfg(target_os = "linux")]
 
-use std::fs::{self, File};
+use std::ffi::CStr;
+use std::fs::{self, File, OpenOptions};
 use std::io::{Read as _, Write as _};
 use std::os::fd::{AsRawFd as _, FromRawFd as _, OwnedFd};
+use std::os::unix::fs::OpenOptionsExt as _;
 use std::os::unix::process::CommandExt as _;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -46,22 +48,7 @@ impl Session {
 
     /// Starts a program with that action for the signal of a closed terminal.
     fn start_with(folder: &Path, arguments: &[&str], hangup: libc::sighandler_t) -> Self {
-        let (mut person, mut program) = (-1, -1);
-        let size = window(80, 24);
-        // SAFETY: the pointers are to two numbers, nothing, nothing and a size.
-        let opened = unsafe {
-            libc::openpty(
-                &raw mut person,
-                &raw mut program,
-                std::ptr::null_mut(),
-                std::ptr::null(),
-                &raw const size,
-            )
-        };
-        assert_eq!(opened, 0, "there are pseudo terminals");
-        // SAFETY: the call gave both to us.
-        let (person, terminal) =
-            unsafe { (File::from_raw_fd(person), OwnedFd::from_raw_fd(program)) };
+        let (person, terminal) = pseudo_terminal();
         let stdio = || Stdio::from(terminal.try_clone().expect("a descriptor"));
         let mut command = Command::new(path());
         command
@@ -223,6 +210,34 @@ impl Session {
         assert_eq!(flags & line_by_line, line_by_line, "lines are edited again");
         (status.code(), self.screen())
     }
+}
+
+/// Both sides of a new terminal of 80 x 24. No other process gets them by accident: a terminal is
+/// only closed when nobody has the side of the person.
+fn pseudo_terminal() -> (File, OwnedFd) {
+    // SAFETY: the call takes numbers.
+    let person = unsafe { libc::posix_openpt(libc::O_RDWR | libc::O_NOCTTY | libc::O_CLOEXEC) };
+    assert!(person >= 0, "there are pseudo terminals");
+    let mut name = [0; 128];
+    let size = window(80, 24);
+    // SAFETY: the descriptor is open, and the pointers are to a name with its length and to a size.
+    let prepared = unsafe {
+        libc::grantpt(person) == 0
+            && libc::unlockpt(person) == 0
+            && libc::ptsname_r(person, name.as_mut_ptr(), name.len()) == 0
+            && libc::ioctl(person, libc::TIOCSWINSZ, &raw const size) == 0
+    };
+    assert!(prepared, "{}", std::io::Error::last_os_error());
+    // SAFETY: the call has written a name that ends in a zero.
+    let name = unsafe { CStr::from_ptr(name.as_ptr()) };
+    let terminal = OpenOptions::new()
+        .read(true)
+        .write(true)
+        .custom_flags(libc::O_NOCTTY)
+        .open(name.to_str().expect("a path"))
+        .expect("the other side");
+    // SAFETY: the descriptor is ours.
+    (unsafe { File::from_raw_fd(person) }, terminal.into())
 }
 
 fn window(columns: u16, rows: u16) -> libc::winsize {
