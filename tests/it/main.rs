@@ -121,6 +121,8 @@ mod verdicts;
 mod verify;
 /// Robots with WASI inside: what each function answers, and what cannot be reached.
 mod wasi;
+/// Web pages with a player: current, small, nothing hidden.
+mod web;
 /// The WIT against its history, and the SDK's bindings against the WIT.
 mod wit;
 /// A robot written with `wit-bindgen` alone.

@@ -22,6 +22,7 @@ pub mod step;
 pub mod validators;
 pub mod verify;
 pub mod wasi;
+pub mod web;
 
 /// The root folder of the repository that this program was compiled in.
 pub fn repository() -> PathBuf {

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use xtask::{
     bindings, corpus, costs, dist, fuzz, languages, platforms, reference, repository, robots,
-    validators, verify, wasi,
+    validators, verify, wasi, web,
 };
 
 /// Automation for the wasmouse repository.
@@ -39,6 +39,15 @@ enum Command {
         /// Build nothing; list what is stale.
         #[arg(long)]
         check: bool,
+    },
+    /// Build the player of web pages into host/web/prebuilt.
+    Web {
+        /// Build nothing; list what is stale.
+        #[arg(long, conflicts_with = "test")]
+        check: bool,
+        /// Build nothing; run its tests in a browser, with the programs that are built.
+        #[arg(long)]
+        test: bool,
     },
     /// Play the hostile corpus and print the verdict of each case; see `--help`.
     #[command(disable_help_flag = true)]
@@ -89,6 +98,9 @@ fn main() -> ExitCode {
         Command::Robots { check: true } => robots::check(&root),
         Command::Wasi { check: false } => wasi::rebuild(&root),
         Command::Wasi { check: true } => wasi::check(&root),
+        Command::Web { check: true, .. } => web::check(&root),
+        Command::Web { test: true, .. } => web::test(&root),
+        Command::Web { .. } => web::rebuild(&root),
         Command::Corpus { arguments } => corpus::run(&root, &arguments),
         Command::Reference { arguments } => reference::run(&root, &arguments),
         Command::Costs { arguments } => costs::run(&root, &arguments),

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use crate::step::{Step, target_folder};
-use crate::{corpus, languages, robots, validators};
+use crate::{corpus, languages, robots, validators, web};
 
 /// Where the tests find robots that were built from source just now.
 pub const BUILT_ROBOTS_VARIABLE: &str = "WASMOUSE_BUILT_ROBOTS";
@@ -41,6 +41,7 @@ pub fn run(root: &Path, long: bool) -> Result<(), String> {
     Step::cargo("build", root)
         .args(["build", "--workspace", "--bins", "--tests"])
         .run()?;
+    web::verify(root)?;
     let missing = validators::install(root);
     let without_tools = languages::install(root);
     let built = target_folder(root).join("robots");
@@ -55,6 +56,7 @@ pub fn run(root: &Path, long: bool) -> Result<(), String> {
         .args(ignored)
         .env(BUILT_ROBOTS_VARIABLE, &built)
         .run()?;
+    web::test(root)?;
     corpus::play(root, cases)?;
     if !has_shared_material(root) {
         eprintln!(

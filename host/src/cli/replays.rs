@@ -76,6 +76,11 @@ impl SourceArgs {
         Ok(replays)
     }
 
+    /// The step to start at, if a link says so.
+    pub fn step(&self) -> Option<usize> {
+        self.links.iter().find_map(|link| link.step)
+    }
+
     fn means(&self, robot: &str, maze: &str, seed: u64) -> bool {
         self.links.is_empty() || self.links.iter().any(|it| it.has_match(robot, maze, seed))
     }

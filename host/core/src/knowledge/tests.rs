@@ -4,10 +4,10 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 
 use super::*;
-use crate::game::{FaultKind, GameRules, Phase, Simulation, Trace, Verdict};
+use crate::game::{Action, FaultKind, GameRules, Phase, Sensors, Simulation, Trace, Verdict};
 use crate::journal::{Belief, Journal, Note};
 use crate::maze::testing::random_maze;
-use crate::maze::{Cell, Walls, oracle_steps};
+use crate::maze::{Cell, Heading, Maze, Turn, Walls, oracle_steps};
 
 const RULES: GameRules = GameRules {
     budget: 200,

@@ -1,6 +1,6 @@
 //! [`Walk`]: the knowledge of a match from one reading to the next.
 
-use super::Knowledge;
+use super::known_walls::Knowledge;
 use crate::game::{Phase, Sensors, Step, Trace, Verdict};
 use crate::maze::{Cell, Heading, Maze};
 

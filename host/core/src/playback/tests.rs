@@ -4,9 +4,10 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 
 use super::*;
-use crate::game::{Action, Event, Simulation};
+use crate::game::{Action, Event, GameRules, Simulation, Trace};
+use crate::journal::Journal;
 use crate::maze::testing::random_maze;
-use crate::maze::{Turn, Walls};
+use crate::maze::{Maze, Turn, Walls};
 
 fn any_action() -> impl Strategy<Value = Action> {
     let turn = prop::sample::select(vec![Turn::Left, Turn::Straight, Turn::Right]);

@@ -1,9 +1,11 @@
-//! [`Form`]: a replay as it is serialised.
+//! [`Replay`] is serialised as an object and checked when it is deserialised.
 
 use data_encoding::BASE64;
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::{Replay, ReplayFileError, ReplayParts};
+use super::error::ReplayFileError;
+use super::parts::{Replay, ReplayParts};
 use crate::Digest;
 use crate::game::Ruleset;
 use crate::journal::{Belief, Color, Journal, Level, Note, NoteOf};
@@ -15,7 +17,7 @@ const VERSION: u32 = 1;
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Form {
+struct Form {
     format: String,
     version: u32,
     robot: String,
@@ -76,20 +78,32 @@ enum EntryForm {
     },
 }
 
-impl From<Replay> for Form {
-    fn from(replay: Replay) -> Self {
-        let digest = replay.digest();
-        let parts = replay.parts;
+impl Serialize for Replay {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        Form::from(self).serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Replay {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let form = Form::deserialize(deserializer)?;
+        Self::try_from(form).map_err(D::Error::custom)
+    }
+}
+
+impl From<&Replay> for Form {
+    fn from(replay: &Replay) -> Self {
+        let parts = replay.parts();
         Self {
             format: FORMAT.to_owned(),
             version: VERSION,
-            robot: parts.robot,
-            maze: MazeForm::new(parts.maze_name, &parts.maze),
-            rules: parts.rules,
-            record: parts.record,
+            robot: parts.robot.clone(),
+            maze: MazeForm::new(parts.maze_name.clone(), &parts.maze),
+            rules: parts.rules.clone(),
+            record: parts.record.clone(),
             transcript: BASE64.encode(&parts.transcript.to_bytes()),
             journal: entries(&parts.journal),
-            digest,
+            digest: replay.digest(),
         }
     }
 }

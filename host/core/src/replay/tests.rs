@@ -1,12 +1,14 @@
 //! Replays round trip, and damaged ones are refused with the place.
 
+use serde::Deserialize as _;
 use serde_json::{Value, json};
 
 use super::*;
-use crate::game::{Action, FaultKind, Phase};
-use crate::journal::{Belief, Color, Level, Note};
-use crate::maze::{Cell, Heading, Turn, Walls};
-use crate::record::{MatchKey, Usage, replay};
+use crate::Digest;
+use crate::game::{Action, FaultKind, Phase, Ruleset};
+use crate::journal::{Belief, Color, Journal, Level, Note};
+use crate::maze::{Cell, Heading, Maze, Turn, Walls};
+use crate::record::{MatchKey, MatchRecord, Transcript, Usage, replay};
 
 /// A match of five steps in an open maze, with a journal.
 fn parts() -> ReplayParts {

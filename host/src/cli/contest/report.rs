@@ -14,7 +14,7 @@ use super::super::terminal;
 use super::load::FILE_NAME;
 use super::pictures::pictures;
 use super::planned::PlannedContest;
-use crate::contest::ScoreMatrix;
+use crate::contest::{KeepTranscripts, ScoreMatrix};
 use crate::report::contest::{self as reports, ContestReport, ReportOptions};
 use crate::report::jsonl::record_line;
 use crate::report::text::{Text, text};
@@ -193,8 +193,9 @@ impl Writer<'_> {
             report = report.with_results_digest(digest);
         }
         if drafts.iter().any(|(kind, ..)| *kind == Kind::Html) {
-            let pictures = pictures(self.store, self.matrix, &report.overall)?;
-            report = report.with_pictures(pictures);
+            let keeps_all = file.run.keep_transcripts == KeepTranscripts::All;
+            let (pictures, playable) = pictures(self.store, &report, keeps_all)?;
+            report = report.with_pictures(pictures).with_playable(playable);
         }
         let layout = terminal::table_layout(ascii);
         output::print(&reports::table(&report, layout))?;

@@ -23,7 +23,7 @@ use super::shard::Shard;
 use super::watch::Watch;
 use crate::contest::{
     self, ContestMatch, Entrant, KeepTranscripts, NotAdmitted, Options, Plan, RejectionEntry,
-    RunError, Sink,
+    RunError, ScoreMatrix, Sink,
 };
 use crate::report::text::Text;
 use crate::store::{KeptTranscripts, Store, StoreError, StoreSink, Submission};
@@ -107,18 +107,18 @@ impl Args {
         } else {
             self.play_left(contest, &left, &mut store)?
         };
-        if interrupt::flag().is_set() {
-            message!("interrupted; `wasmouse contest run` goes on where this ended");
-        } else if store.sealed().map_err(store_failure)?.is_none() {
-            store.seal().map_err(store_failure)?;
-        }
         let mut not_admitted = contest.rejections(&store)?;
         for (&robot, entrant) in left.robots.iter().zip(&entrants) {
             if let Err(reason) = &entrant.admission {
                 not_admitted[robot] = Some(reason.clone());
             }
         }
-        let matrix = contest.matrix(&store, &not_admitted)?;
+        let matrix = if interrupt::flag().is_set() {
+            message!("interrupted; `wasmouse contest run` goes on where this ended");
+            contest.matrix(&store, &not_admitted)?
+        } else {
+            seal_and_read(contest, &mut store, &not_admitted)?
+        };
         let has_failed = not_admitted
             .iter()
             .any(|it| matches!(it, Some(NotAdmitted::Failed(_))))
@@ -232,6 +232,29 @@ impl Args {
         }
         Ok(entrants)
     }
+}
+
+/// Seals the store, and reads the matrix from it meanwhile: both go through all records, and a
+/// contest of many short matches would wait for them one after the other.
+fn seal_and_read(
+    contest: &PlannedContest,
+    store: &mut Store,
+    not_admitted: &[Option<NotAdmitted>],
+) -> Result<ScoreMatrix, Failure> {
+    if store.sealed().map_err(store_failure)?.is_some() {
+        return contest.matrix(store, not_admitted);
+    }
+    let reader = Store::open_read_only(store.path()).map_err(store_failure)?;
+    thread::scope(|scope| {
+        let seal = move || store.seal();
+        let sealing = thread::Builder::new().spawn_scoped(scope, seal);
+        let sealing = sealing.map_err(|error| Failure::internal(RunError::Thread(error)))?;
+        let matrix = contest.matrix(&reader, not_admitted);
+        let sealed = sealing.join();
+        let sealed = sealed.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        sealed.map_err(store_failure)?;
+        matrix
+    })
 }
 
 /// What the history of the store says about the robots.

@@ -6,6 +6,7 @@ use wasmouse_core::Digest;
 use wasmouse_core::record::EngineId;
 
 use super::picture::Pictures;
+use super::playable::Playable;
 use crate::contest::{Complaint, MazeFilter, PairedComparison, Ranking, ScoreMatrix, Scoring};
 
 /// What a report does not show.
@@ -72,6 +73,8 @@ pub struct ContestReport<'a> {
     /// Matches of which the web page shows a picture. Those of hidden robots and mazes are left
     /// out.
     pub pictures: Pictures,
+    /// Matches that can be watched in the web page. Those of hidden robots and mazes are left out.
+    pub playable: Playable,
     /// What robots wrote when they first failed, by robot and name of the kind of fault.
     pub complaints: BTreeMap<(usize, &'static str), Complaint>,
 }
@@ -141,6 +144,7 @@ impl<'a> ContestReport<'a> {
             overall,
             results_digest: None,
             pictures: Pictures::default(),
+            playable: Playable::default(),
             complaints: BTreeMap::new(),
         }
     }
@@ -156,6 +160,13 @@ impl<'a> ContestReport<'a> {
     #[must_use]
     pub fn with_pictures(mut self, pictures: Pictures) -> Self {
         self.pictures = pictures;
+        self
+    }
+
+    /// Adds matches that can be watched in the web page.
+    #[must_use]
+    pub fn with_playable(mut self, playable: Playable) -> Self {
+        self.playable = playable;
         self
     }
 

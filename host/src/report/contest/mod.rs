@@ -12,6 +12,7 @@ mod html;
 mod json;
 mod markdown;
 mod picture;
+mod playable;
 #[cfg(test)]
 mod sample;
 mod table;
@@ -26,4 +27,5 @@ pub use html::html;
 pub use json::{REPORT_VERSION, json};
 pub use markdown::markdown;
 pub use picture::{MatchPicture, PICTURES_MAX, Pictures};
+pub use playable::{PLAYABLE_BYTES_MAX, Place, Playable};
 pub use table::table;

@@ -6,6 +6,7 @@ mod method;
 mod page;
 mod parts;
 mod pictures;
+mod player;
 mod scale;
 mod scatter;
 mod scores;

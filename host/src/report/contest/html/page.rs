@@ -10,6 +10,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use wasmouse_core::Digest;
 
 use super::parts::shown;
+use super::player::{self, Player};
 use super::{boxes, method, pictures, scatter, scores, standings};
 use crate::report::contest::document::ContestReport;
 use crate::report::contest::view::View;
@@ -31,8 +32,15 @@ struct Section {
 /// a part of the matches is shown, and the page says so.
 pub fn html(report: &ContestReport<'_>) -> String {
     let view = View::new(report);
+    let player = Player::new(&view);
+    let player = player.as_ref();
     let sections = [
-        ("standings", "Standings", standings::standings(&view)),
+        (
+            "standings",
+            "Standings",
+            standings::standings(&view, player),
+        ),
+        ("watch", "Watch", player.map(|it| it.section(&view))),
         ("comparisons", "Comparisons", standings::comparisons(&view)),
         ("not-ranked", "Not ranked", standings::unranked(&view)),
         ("faults", "Faults", standings::faults(&view)),
@@ -42,27 +50,32 @@ pub fn html(report: &ContestReport<'_>) -> String {
             boxes::boxes(&view),
         ),
         ("runs", "Exploration and speed run", scatter::scatter(&view)),
-        ("matches", "Robots by mazes", scores::scores(&view)),
-        ("best", "Best match of each robot", pictures::best(&view)),
-        ("hardest", "Hardest mazes", pictures::hardest(&view)),
+        ("matches", "Robots by mazes", scores::scores(&view, player)),
+        (
+            "best",
+            "Best match of each robot",
+            pictures::best(&view, player),
+        ),
+        ("hardest", "Hardest mazes", pictures::hardest(&view, player)),
         ("method", "Method", method::method(&view)),
     ];
     let sections = sections
         .into_iter()
         .filter_map(|(id, title, content)| content.map(|content| Section { id, title, content }));
-    page(&view, &sections.collect::<Vec<_>>())
+    page(&view, &sections.collect::<Vec<_>>(), player)
 }
 
-fn page(view: &View<'_>, sections: &[Section]) -> String {
+fn page(view: &View<'_>, sections: &[Section], player: Option<&Player>) -> String {
     let report = view.report;
     let name = shown(report.name);
-    let style = format!("{STYLE}{SVG_STYLE}\n");
+    let player_style = player.map_or("", |_| player::STYLE);
+    let style = format!("{STYLE}{SVG_STYLE}\n{player_style}");
     html! {
         (DOCTYPE)
         html lang="en" {
             head {
                 meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(policy(&style));
+                meta http-equiv="Content-Security-Policy" content=(policy(&style, player.is_some()));
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { (name) }
                 style { (PreEscaped(&style)) }
@@ -95,20 +108,32 @@ fn page(view: &View<'_>, sections: &[Section]) -> String {
                     }
                 }
                 script { (PreEscaped(SCRIPT)) }
+                @if let Some(player) = player {
+                    (player.data())
+                    script { (PreEscaped(player::SCRIPT)) }
+                }
             }
         }
     }
     .into_string()
 }
 
-/// A policy that allows this style sheet and this script and nothing else.
-fn policy(style: &str) -> String {
-    let [style, script] = [style, SCRIPT].map(|text| {
+/// A policy that allows this style sheet and these scripts and nothing else; the player compiles
+/// the WebAssembly that the page brings.
+fn policy(style: &str, has_player: bool) -> String {
+    let source = |text: &str| {
         let hash = BASE64.encode(Digest::of(text.as_bytes()).as_bytes());
         format!("'sha256-{hash}'")
-    });
+    };
+    let player = if has_player {
+        format!(" {} 'wasm-unsafe-eval'", source(player::SCRIPT))
+    } else {
+        String::new()
+    };
     format!(
-        "default-src 'none'; style-src {style}; script-src {script}; base-uri 'none'; \
-         form-action 'none'"
+        "default-src 'none'; style-src {}; script-src {}{player}; base-uri 'none'; \
+         form-action 'none'",
+        source(style),
+        source(SCRIPT)
     )
 }

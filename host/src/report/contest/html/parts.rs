@@ -14,6 +14,11 @@ pub(super) fn label(text: &str) -> Markup {
     html! { span.label { (shown(text)) } }
 }
 
+/// The same of which the player makes a link to the match at that position in its data, if any.
+pub(super) fn playable(text: &str, position: Option<usize>) -> Markup {
+    html! { span.label data-play=[position] { (shown(text)) } }
+}
+
 /// The caption of a table, which stays in view when a wide table is scrolled.
 pub(super) fn caption(text: &str) -> Markup {
     html! { caption { span { (text) } } }

@@ -5,24 +5,26 @@ use std::collections::BTreeMap;
 use maud::{Markup, PreEscaped, html};
 
 use super::parts::shown;
+use super::player::Player;
 use crate::report::contest::address::Addresses;
 use crate::report::contest::picture::MatchPicture;
+use crate::report::contest::playable::Place;
 use crate::report::contest::view::View;
 use crate::report::contest::words;
 
 /// The best matches; `None` if there is none to show.
-pub(super) fn best(view: &View<'_>) -> Option<Markup> {
+pub(super) fn best(view: &View<'_>, player: Option<&Player>) -> Option<Markup> {
     let pictures = visible(view, &view.report.pictures.best);
     (!pictures.is_empty()).then(|| {
         html! {
             p { "The match with the smallest regret. " (key()) }
-            div.panels { @for picture in pictures { (figure(view, picture, true)) } }
+            div.panels { @for picture in pictures { (figure(view, player, picture, true)) } }
         }
     })
 }
 
 /// The matches in the hardest mazes, maze by maze; `None` if there is none to show.
-pub(super) fn hardest(view: &View<'_>) -> Option<Markup> {
+pub(super) fn hardest(view: &View<'_>, player: Option<&Player>) -> Option<Markup> {
     let pictures = visible(view, &view.report.pictures.hardest);
     let mut by_maze: BTreeMap<usize, Vec<&MatchPicture>> = BTreeMap::new();
     for picture in pictures {
@@ -38,7 +40,7 @@ pub(super) fn hardest(view: &View<'_>) -> Option<Markup> {
                     (maze.dimension) " x " (maze.dimension) " cells"
                     @if let Some(oracle) = maze.oracle { ", oracle score " (oracle) }
                 }
-                div.panels { @for picture in pictures { (figure(view, picture, false)) } }
+                div.panels { @for picture in pictures { (figure(view, player, picture, false)) } }
             }
         }
     })
@@ -59,7 +61,12 @@ fn visible<'a>(view: &View<'_>, pictures: &'a [MatchPicture]) -> Vec<&'a MatchPi
     pictures
 }
 
-fn figure(view: &View<'_>, picture: &MatchPicture, names_maze: bool) -> Markup {
+fn figure(
+    view: &View<'_>,
+    player: Option<&Player>,
+    picture: &MatchPicture,
+    names_maze: bool,
+) -> Markup {
     let MatchPicture {
         robot,
         maze,
@@ -72,8 +79,14 @@ fn figure(view: &View<'_>, picture: &MatchPicture, names_maze: bool) -> Markup {
     let played = view.matrix().get(*robot, *maze, *seed);
     let address = (!view.report.options.hide_names)
         .then(|| Addresses::new(view.report).get(*robot, *maze, *seed));
+    let place = Place {
+        maze: *maze,
+        robot: *robot,
+        seed: *seed,
+    };
+    let play = player.and_then(|it| it.position(place));
     html! {
-        figure data-match=[address] {
+        figure data-match=[address] data-play=[play] {
             (PreEscaped(picture.to_svg_element()))
             figcaption {
                 strong { (shown(name)) }

@@ -3,9 +3,11 @@
 use maud::{Markup, html};
 
 use super::parts::{caption, label, more};
+use super::player::Player;
 use super::scale::percentile;
 use crate::contest::{MatchScore, Mean, Outcome, worst_score_steps};
 use crate::report::contest::address::Addresses;
+use crate::report::contest::playable::Place;
 use crate::report::contest::view::View;
 use crate::report::contest::words::NONE;
 
@@ -31,7 +33,7 @@ struct Cell {
 }
 
 /// The table; `None` if no maze is shown or nothing was played.
-pub(super) fn scores(view: &View<'_>) -> Option<Markup> {
+pub(super) fn scores(view: &View<'_>, player: Option<&Player>) -> Option<Markup> {
     let robots = view.robots.iter().copied();
     let robots = robots.filter(|&robot| view.robot(robot).not_admitted.is_none());
     let robots: Vec<usize> = robots.take(ROBOTS_MAX).collect();
@@ -83,7 +85,9 @@ pub(super) fn scores(view: &View<'_>) -> Option<Markup> {
                     @for (&robot, cell) in robots.iter().zip(cells) {
                         @let address = addresses.as_ref().filter(|_| cell.played > 0);
                         @let address = address.map(|it| it.get(robot, *maze, 0));
-                        td class=[class(cell, hottest)] data-match=[address] { (text(cell)) }
+                        @let place = Place { maze: *maze, robot, seed: 0 };
+                        @let play = player.and_then(|it| it.position(place));
+                        td class=[class(cell, hottest)] data-match=[address] data-play=[play] { (text(cell)) }
                     }
                 } } }
             }

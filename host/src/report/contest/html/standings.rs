@@ -2,26 +2,27 @@
 
 use maud::{Markup, html};
 
-use super::parts::{caption, label, shown};
+use super::parts::{caption, label, playable, shown};
+use super::player::Player;
 use crate::contest::{Mean, RankingLine};
 use crate::report::contest::view::{Part, View, state};
 use crate::report::contest::words::{self, mean, percent};
 use crate::report::number::grouped;
 
 /// The overall ranking, and those of sets and classes below it.
-pub(super) fn standings(view: &View<'_>) -> Option<Markup> {
+pub(super) fn standings(view: &View<'_>, player: Option<&Player>) -> Option<Markup> {
     let report = view.report;
     let by = words::ranked_by(report.scoring, report.overall.penalty_steps);
     Some(html! {
         p { (by) }
         @for (index, part) in view.parts().iter().enumerate() {
             @if index > 0 { h3 { (shown(&words::part_title(part))) } }
-            (ranking(view, part, index))
+            (ranking(view, player, part, index))
         }
     })
 }
 
-fn ranking(view: &View<'_>, part: &Part<'_>, index: usize) -> Markup {
+fn ranking(view: &View<'_>, player: Option<&Player>, part: &Part<'_>, index: usize) -> Markup {
     let has_classes = view.robots.iter().any(|&it| view.robot(it).class.is_some());
     let title = shown(&words::part_title(part));
     let value = words::value_title(view.report.scoring.method);
@@ -42,19 +43,20 @@ fn ranking(view: &View<'_>, part: &Part<'_>, index: usize) -> Markup {
                     th scope="col" { "Fuel per step" }
                     th scope="col" { "Memory, KiB" }
                 } }
-                tbody { @for line in &part.lines { (row(view, line, has_classes)) } }
+                tbody { @for line in &part.lines { (row(view, player, line, has_classes)) } }
             }
         }
     }
 }
 
-fn row(view: &View<'_>, line: &RankingLine, has_classes: bool) -> Markup {
+fn row(view: &View<'_>, player: Option<&Player>, line: &RankingLine, has_classes: bool) -> Markup {
     let robot = view.robot(line.robot);
+    let best = player.and_then(|it| it.best(view, line.robot));
     html! {
         tr {
             td { (words::rank(line)) }
             th.name scope="row" {
-                (label(view.name(line.robot)))
+                (playable(view.name(line.robot), best))
                 @if let Some(state) = state(robot, line.state) { " (" (state) ")" }
                 @if let Some(author) = view.author(line.robot) {
                     " " span.quiet { "by " (shown(author)) }
