@@ -2,12 +2,15 @@
 
 #![cfg(target_os = "linux")]
 
-use std::fs::{self, File};
+use std::ffi::CStr;
+use std::fs::{self, File, OpenOptions};
 use std::io::{Read as _, Write as _};
 use std::os::fd::{AsRawFd as _, FromRawFd as _, OwnedFd};
+use std::os::unix::fs::OpenOptionsExt as _;
 use std::os::unix::process::CommandExt as _;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -24,6 +27,9 @@ struct Session {
     /// The side of the program, to see how it left the terminal.
     terminal: OwnedFd,
     shown: Arc<Mutex<Shown>>,
+    reader: thread::JoinHandle<()>,
+    /// Whether the person has gone.
+    is_gone: Arc<AtomicBool>,
 }
 
 /// What a program has written, and what a terminal makes of it.
@@ -37,22 +43,12 @@ const ENTER: &str = "\u{1b}[?1049h";
 
 impl Session {
     fn start(folder: &Path, arguments: &[&str]) -> Self {
-        let (mut person, mut program) = (-1, -1);
-        let size = window(80, 24);
-        // SAFETY: the pointers are to two numbers, nothing, nothing and a size.
-        let opened = unsafe {
-            libc::openpty(
-                &raw mut person,
-                &raw mut program,
-                std::ptr::null_mut(),
-                std::ptr::null(),
-                &raw const size,
-            )
-        };
-        assert_eq!(opened, 0, "there are pseudo terminals");
-        // SAFETY: the call gave both to us.
-        let (person, terminal) =
-            unsafe { (File::from_raw_fd(person), OwnedFd::from_raw_fd(program)) };
+        Self::start_with(folder, arguments, libc::SIG_DFL)
+    }
+
+    /// Starts a program with that action for the signal of a closed terminal.
+    fn start_with(folder: &Path, arguments: &[&str], hangup: libc::sighandler_t) -> Self {
+        let (person, terminal) = pseudo_terminal();
         let stdio = || Stdio::from(terminal.try_clone().expect("a descriptor"));
         let mut command = Command::new(path());
         command
@@ -64,12 +60,12 @@ impl Session {
             .stdin(stdio())
             .stdout(stdio())
             .stderr(stdio());
-        let take_terminal = || {
+        let take_terminal = move || {
             // SAFETY: calls that take numbers, and may be made between fork and exec.
             unsafe {
                 libc::setsid();
                 libc::ioctl(0, libc::TIOCSCTTY, 0);
-                libc::signal(libc::SIGHUP, libc::SIG_DFL);
+                libc::signal(libc::SIGHUP, hangup);
             }
             Ok(())
         };
@@ -82,9 +78,23 @@ impl Session {
         }));
         let mut reader = person.try_clone().expect("a descriptor");
         let sink = Arc::clone(&shown);
-        thread::spawn(move || {
+        let is_gone = Arc::new(AtomicBool::new(false));
+        let gone = Arc::clone(&is_gone);
+        let reader = thread::spawn(move || {
             let mut bytes = [0; 4096];
-            while let Ok(count @ 1..) = reader.read(&mut bytes) {
+            while !gone.load(Ordering::SeqCst) {
+                let mut polled = libc::pollfd {
+                    fd: reader.as_raw_fd(),
+                    events: libc::POLLIN,
+                    revents: 0,
+                };
+                // SAFETY: the pointer is to one structure.
+                if unsafe { libc::poll(&raw mut polled, 1, 50) } < 1 {
+                    continue;
+                }
+                let Ok(count @ 1..) = reader.read(&mut bytes) else {
+                    return;
+                };
                 let mut sink = sink.lock().expect("no panic");
                 sink.written.extend_from_slice(&bytes[..count]);
                 sink.terminal.process(&bytes[..count]);
@@ -95,6 +105,26 @@ impl Session {
             keyboard: person,
             terminal,
             shown,
+            reader,
+            is_gone,
+        }
+    }
+
+    /// Closes the terminal, and returns how the program ended.
+    fn close(mut self) -> Option<i32> {
+        self.is_gone.store(true, Ordering::SeqCst);
+        self.reader.join().expect("no panic");
+        drop(self.keyboard);
+        let begin = Instant::now();
+        loop {
+            if let Some(status) = self.child.try_wait().expect("a child") {
+                return status.code();
+            }
+            if begin.elapsed() > Duration::from_secs(60) {
+                self.child.kill().expect("a child");
+                panic!("it goes on without a terminal");
+            }
+            thread::sleep(Duration::from_millis(10));
         }
     }
 
@@ -182,6 +212,34 @@ impl Session {
     }
 }
 
+/// Both sides of a new terminal of 80 x 24. No other process gets them by accident: a terminal is
+/// only closed when nobody has the side of the person.
+fn pseudo_terminal() -> (File, OwnedFd) {
+    // SAFETY: the call takes numbers.
+    let person = unsafe { libc::posix_openpt(libc::O_RDWR | libc::O_NOCTTY | libc::O_CLOEXEC) };
+    assert!(person >= 0, "there are pseudo terminals");
+    let mut name = [0; 128];
+    let size = window(80, 24);
+    // SAFETY: the descriptor is open, and the pointers are to a name with its length and to a size.
+    let prepared = unsafe {
+        libc::grantpt(person) == 0
+            && libc::unlockpt(person) == 0
+            && libc::ptsname_r(person, name.as_mut_ptr(), name.len()) == 0
+            && libc::ioctl(person, libc::TIOCSWINSZ, &raw const size) == 0
+    };
+    assert!(prepared, "{}", std::io::Error::last_os_error());
+    // SAFETY: the call has written a name that ends in a zero.
+    let name = unsafe { CStr::from_ptr(name.as_ptr()) };
+    let terminal = OpenOptions::new()
+        .read(true)
+        .write(true)
+        .custom_flags(libc::O_NOCTTY)
+        .open(name.to_str().expect("a path"))
+        .expect("the other side");
+    // SAFETY: the descriptor is ours.
+    (unsafe { File::from_raw_fd(person) }, terminal.into())
+}
+
 fn window(columns: u16, rows: u16) -> libc::winsize {
     libc::winsize {
         ws_row: rows,
@@ -222,6 +280,32 @@ fn signals_end_it_and_give_the_terminal_back() {
         session.send(signal);
         assert_eq!(session.end().0, Some(code));
     }
+}
+
+/// Whether or not the signal that says so is ignored, as `nohup` does.
+#[test]
+fn a_closed_terminal_ends_it() {
+    for hangup in [libc::SIG_DFL, libc::SIG_IGN] {
+        for keys in ["", " "] {
+            let folder = folder();
+            let mut session = Session::start_with(folder.path(), WATCH, hangup);
+            session.wait_for("exploration run");
+            session.press(keys);
+            assert_eq!(session.close(), Some(129), "{keys:?}");
+        }
+    }
+}
+
+/// The beginning of a key that never comes does not keep the program from ending.
+#[test]
+fn half_of_a_key_holds_nothing_up() {
+    let folder = folder();
+    let mut session = Session::start(folder.path(), WATCH);
+    session.wait_for("exploration run");
+    session.press("\u{1b}[");
+    thread::sleep(Duration::from_millis(300));
+    session.send(libc::SIGTERM);
+    assert_eq!(session.end().0, Some(143));
 }
 
 #[test]

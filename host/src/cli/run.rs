@@ -207,7 +207,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     if args.watch {
         let delay = Duration::from_millis(args.delay);
         let shown = player::watch(&plan, &players, &executor, results, delay, args.ascii)?;
-        if shown == Exit::Interrupted {
+        if shown != Exit::Success {
             return Ok(shown);
         }
     }

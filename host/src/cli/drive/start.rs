@@ -65,7 +65,7 @@ pub struct Args {
 }
 
 /// What needs a terminal.
-const WHAT: &str = "wasmouse drive";
+const WHAT: &str = "`wasmouse drive`";
 
 /// What to do without one.
 const HINT: &str = "run it in a terminal; `wasmouse run` plays robots without one";

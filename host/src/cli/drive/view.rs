@@ -197,11 +197,12 @@ fn draw_text(driver: &Driver<'_>, writer: &mut Writer<'_>) {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
     use wasmouse_core::game::GameRules;
     use wasmouse_core::maze::{Maze, bundled, format};
 
     use super::super::super::tui::Look;
-    use super::super::super::tui::testing::{buffer_of, press, screen_of};
+    use super::super::super::tui::testing::{any_event, buffer_of, press, screen_of, survive};
     use super::*;
     use crate::report::picture::Charset;
 
@@ -245,6 +246,26 @@ mod tests {
         for (width, height) in [(0, 0), (10, 4), (11, 5), (30, 9), (250, 80)] {
             buffer_of(&mut driver, width, height);
             press(&mut driver, "?");
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        /// Whatever a person does, and whatever the size.
+        #[test]
+        fn no_key_breaks_it(
+            events in prop::collection::vec(any_event(), 0..70),
+            (width, height) in (0..120_u16, 0..40_u16),
+            has_map in any::<bool>(),
+        ) {
+            let maze = maze();
+            let rules = GameRules { budget: 20, ..GameRules::default() };
+            let name = "maze".to_owned();
+            let mut driver = Driver::new(name, &maze, &rules, look(Charset::Unicode));
+            driver.has_map = has_map;
+            survive(&mut driver, &events, width, height);
+            prop_assert!(driver.trace.steps().len() <= 20);
         }
     }
 }

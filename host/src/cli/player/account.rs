@@ -161,9 +161,17 @@ fn used(playback: &Playback, position: usize) -> String {
     }
 }
 
-/// What is known about the best path.
+/// What is known about the best path; at the end, what was known when the speed run began.
 fn certainty(playback: &Playback, position: usize) -> String {
     let audit = playback.audit();
+    if let (true, Some(outlook)) = (position == playback.last(), audit.at_reset) {
+        return match outlook.might_save() {
+            Some(0) => "the best path was certain at the reset".to_owned(),
+            Some(1) => "at the reset, 1 step might still have been saved".to_owned(),
+            Some(steps) => format!("at the reset, {steps} steps might still have been saved"),
+            None => "no path was known at the reset".to_owned(),
+        };
+    }
     if let Some(step) = audit.certain_at.filter(|&step| step <= position) {
         return format!("best path certain since step {step}");
     }

@@ -220,10 +220,11 @@ fn draw_texts(player: &Player, area: Rect, buffer: &mut Buffer) {
                 ..area
             }
         } else {
-            let width = area.width / count;
+            // As the mazes above.
+            let width = (area.width - GAP * (count - 1)) / count;
             Rect {
-                x: area.x + place * width,
-                width: width - GAP,
+                x: area.x + place * (width + GAP),
+                width,
                 ..area
             }
         };
@@ -314,8 +315,10 @@ fn speed(delay: Duration) -> String {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::super::super::tui::Look;
-    use super::super::super::tui::testing::{buffer_of, press, screen_of};
+    use super::super::super::tui::testing::{any_event, buffer_of, press, screen_of, survive};
     use super::super::show::tests::{explorer, hostile, lost};
     use super::*;
     use crate::report::picture::Charset;
@@ -413,5 +416,20 @@ mod tests {
         let mut nothing = Player::new(Vec::new(), false);
         press(&mut nothing, " <end>n<right>5");
         buffer_of(&mut nothing, 80, 24);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        /// Whatever a person does, and whatever the size.
+        #[test]
+        fn no_key_breaks_it(
+            events in prop::collection::vec(any_event(), 0..70),
+            (width, height) in (0..120_u16, 0..40_u16),
+        ) {
+            let mut player = Player::new(vec![explorer(), hostile()], true);
+            survive(&mut player, &events, width, height);
+            prop_assert!(player.position <= player.last());
+        }
     }
 }

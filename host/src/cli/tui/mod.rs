@@ -7,6 +7,7 @@
 mod app;
 mod camera;
 mod glyphs;
+mod keyboard;
 mod lines;
 mod look;
 mod maze_view;

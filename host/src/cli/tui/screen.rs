@@ -3,8 +3,9 @@
 use std::env;
 use std::io::{self, IsTerminal as _, Stdout};
 use std::panic;
-use std::sync::Once;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Once};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use ratatui::Terminal;
@@ -12,15 +13,20 @@ use ratatui::backend::CrosstermBackend;
 use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::{self, DisableMouseCapture, EnableMouseCapture};
 use ratatui::crossterm::{cursor, execute, terminal};
+use wasmouse_engine::CancelFlag;
 
 use super::super::exit::Exit;
 use super::super::failure::Failure;
 use super::super::interrupt;
 use super::app::{App, Flow};
+use super::keyboard::{Keyboard, Waited};
 use super::plain::is_plain;
 
-/// How long a signal may go unnoticed.
-const SIGNAL_WAIT: Duration = Duration::from_millis(100);
+/// How long a signal, or a new size, may go unnoticed.
+const NOTICE: Duration = Duration::from_millis(50);
+
+/// How long a program may take to end after a signal.
+const GRACE: Duration = Duration::from_secs(1);
 
 /// Runs a program on the terminal until it ends or a signal does that. `what` names the command in
 /// the message that it needs a terminal.
@@ -39,14 +45,37 @@ pub fn run(app: &mut impl App, what: &str, hint: &str) -> Result<Exit, Failure> 
         return Err(Failure::usage(format!("{what} needs {wanted}")).hint(hint));
     }
     let interrupted = interrupt::listen()?;
+    let has_ended = Arc::new(AtomicBool::new(false));
+    end_after_signals(interrupted, Arc::clone(&has_ended));
     let ended = Screen::open().and_then(|mut screen| screen.run(app, || interrupted.is_set()));
+    has_ended.store(true, Ordering::SeqCst);
     interrupt::stop_listening();
     ended.map_err(|error| Failure::internal(format!("failed to use the terminal: {error}")))
+}
+
+/// Ends the process if a signal did not: half of a key makes crossterm wait for the other half.
+fn end_after_signals(interrupted: &'static CancelFlag, has_ended: Arc<AtomicBool>) {
+    let thread = thread::Builder::new().name("terminal".to_owned());
+    // Without it, a second signal ends the process.
+    let _ = thread.spawn(move || {
+        while !has_ended.load(Ordering::SeqCst) {
+            thread::sleep(NOTICE);
+            if interrupted.is_set() {
+                thread::sleep(GRACE);
+                if !has_ended.load(Ordering::SeqCst) {
+                    give_back();
+                    let exit = interrupt::exit_of(Exit::Interrupted);
+                    std::process::exit(i32::from(exit as u8));
+                }
+            }
+        }
+    });
 }
 
 /// The alternate screen, left when it goes out of scope.
 struct Screen {
     terminal: Terminal<CrosstermBackend<Stdout>>,
+    keyboard: Keyboard,
 }
 
 /// Whether there is something to give back.
@@ -64,6 +93,7 @@ impl Screen {
     }
 
     fn take() -> io::Result<Self> {
+        let keyboard = Keyboard::open()?;
         terminal::enable_raw_mode()?;
         execute!(
             io::stdout(),
@@ -72,7 +102,7 @@ impl Screen {
             cursor::Hide
         )?;
         let terminal = Terminal::new(CrosstermBackend::new(io::stdout()))?;
-        Ok(Self { terminal })
+        Ok(Self { terminal, keyboard })
     }
 
     fn run(&mut self, app: &mut impl App, is_interrupted: impl Fn() -> bool) -> io::Result<Exit> {
@@ -92,7 +122,11 @@ impl Screen {
                     app.tick();
                     break;
                 }
-                if event::poll(until_tick.map_or(SIGNAL_WAIT, |wait| wait.min(SIGNAL_WAIT)))? {
+                let wait = until_tick.map_or(NOTICE, |wait| wait.min(NOTICE));
+                if self.keyboard.wait(wait)? == Waited::Closed {
+                    return Ok(Exit::HungUp);
+                }
+                if event::poll(Duration::ZERO)? {
                     let waited = app.wait().is_some();
                     if handle_all(app)? == Flow::End {
                         return Ok(Exit::Success);

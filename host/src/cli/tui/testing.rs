@@ -1,7 +1,10 @@
 //! What tests read from a buffer of cells.
 
+use proptest::prelude::*;
 use ratatui::buffer::Buffer;
-use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
+use ratatui::crossterm::event::{
+    Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
+};
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier};
 
@@ -129,4 +132,59 @@ fn named(name: &str) -> (KeyCode, KeyModifiers) {
         }
     };
     (code, KeyModifiers::NONE)
+}
+
+/// Keys with and without modifiers, and the mouse anywhere.
+pub fn any_event() -> impl Strategy<Value = Event> {
+    let named = prop::sample::select(vec![
+        KeyCode::Left,
+        KeyCode::Right,
+        KeyCode::Up,
+        KeyCode::Down,
+        KeyCode::Home,
+        KeyCode::End,
+        KeyCode::PageUp,
+        KeyCode::PageDown,
+        KeyCode::Tab,
+        KeyCode::Enter,
+        KeyCode::Esc,
+    ]);
+    let letter = (b' '..=b'~').prop_map(|byte| KeyCode::Char(char::from(byte)));
+    let modifiers = prop::sample::select(vec![
+        KeyModifiers::NONE,
+        KeyModifiers::SHIFT,
+        KeyModifiers::CONTROL,
+    ]);
+    let key = (prop_oneof![named, letter], modifiers)
+        .prop_map(|(code, modifiers)| Event::Key(KeyEvent::new(code, modifiers)));
+    let button = MouseButton::Left;
+    let kind = prop::sample::select(vec![
+        MouseEventKind::Down(button),
+        MouseEventKind::Drag(button),
+        MouseEventKind::Up(button),
+        MouseEventKind::ScrollUp,
+        MouseEventKind::ScrollDown,
+    ]);
+    let mouse = (kind, 0..90_u16, 0..30_u16).prop_map(|(kind, column, row)| {
+        Event::Mouse(MouseEvent {
+            kind,
+            column,
+            row,
+            modifiers: KeyModifiers::NONE,
+        })
+    });
+    prop_oneof![4 => key, 1 => mouse]
+}
+
+/// Handles events as a terminal would bring them, and draws now and then.
+pub fn survive(app: &mut impl App, events: &[Event], width: u16, height: u16) {
+    for part in events.chunks(7) {
+        for event in part {
+            app.event(event);
+            if app.wait().is_some() {
+                app.tick();
+            }
+        }
+        buffer_of(app, width, height);
+    }
 }

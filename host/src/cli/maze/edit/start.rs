@@ -86,7 +86,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     let mut editor = Editor::new(file, maze, is_saved, look);
     tui::run(
         &mut editor,
-        "wasmouse maze edit",
+        "`wasmouse maze edit`",
         "run it in a terminal; `wasmouse maze check` needs none",
     )
 }

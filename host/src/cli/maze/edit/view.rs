@@ -283,10 +283,11 @@ mod tests {
     use std::fs;
     use std::path::PathBuf;
 
+    use proptest::prelude::*;
     use wasmouse_core::maze::format::Format;
     use wasmouse_core::maze::{Maze, Walls, bundled};
 
-    use super::super::super::super::tui::testing::{press, screen_of};
+    use super::super::super::super::tui::testing::{any_event, press, screen_of, survive};
     use super::super::super::super::tui::{App as _, Look};
     use super::super::file::MazeFile;
     use super::*;
@@ -383,6 +384,25 @@ mod tests {
                 editor.draw(&mut buffer);
                 press(&mut editor, "+");
             }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        /// Whatever a person does, and whatever the size. Undoing all of it gives the first maze.
+        #[test]
+        fn no_key_breaks_it(
+            events in prop::collection::vec(any_event(), 0..70),
+            (width, height) in (0..120_u16, 0..40_u16),
+        ) {
+            // Where nothing can be written.
+            let mut editor = editor(official(), "missing folder/maze.txt", PLAIN);
+            survive(&mut editor, &events, width, height);
+            let maze = editor.board.maze();
+            prop_assert_eq!((maze.start(), maze.goal()), (official().start(), official().goal()));
+            while editor.board.undo() {}
+            prop_assert_eq!(editor.board.maze(), &official());
         }
     }
 }
