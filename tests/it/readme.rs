@@ -109,6 +109,17 @@ fn pictures_are_drawn_as_documented() {
     }
 }
 
+#[test]
+fn matches_are_watched_as_documented() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for block in blocks("watch") {
+        run(block, folder.path());
+    }
+    for file in ["page.html", "match.gif", "end.svg", "scores.svg"] {
+        assert!(folder.path().join(file).is_file(), "{file}");
+    }
+}
+
 /// What the page says an audit prints, it prints.
 #[test]
 fn replays_are_kept_and_audited_as_documented() {
