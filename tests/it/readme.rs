@@ -127,7 +127,10 @@ fn replays_are_kept_and_audited_as_documented() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let blocks = blocks_of(REPLAYS, "replay");
     assert_eq!(blocks.len(), 3);
-    let printed = blocks.iter().map(|block| run(block, folder.path()));
+    let printed: Vec<String> = blocks
+        .iter()
+        .map(|block| run(block, folder.path()))
+        .collect();
     let audit = printed.last().expect("three blocks");
     for line in audit.lines() {
         assert!(REPLAYS.contains(line.trim_end()), "{line}");
