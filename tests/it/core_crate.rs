@@ -11,8 +11,8 @@ use wasmouse_tests::wasm_target::{cargo, check};
 /// knows WebAssembly. `libc` is there on aarch64 only, where `cpufeatures` asks the operating
 /// system for the features of the processor.
 const REVIEWED: &str = "
-    block-buffer cfg-if const-oid cpufeatures crypto-common digest hybrid-array libc ppv-lite86
-    rand_chacha rand_core serde serde_core sha2 thiserror typenum zerocopy";
+    block-buffer cfg-if const-oid cpufeatures crypto-common data-encoding digest hybrid-array libc
+    ppv-lite86 rand_chacha rand_core serde serde_core sha2 thiserror typenum zerocopy";
 
 /// One platform of each kind. Not all of them at once (`--target all`), because that includes
 /// what only a build for libFuzzer has.
