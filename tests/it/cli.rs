@@ -159,6 +159,8 @@ fn help_in_two_lengths() {
         "run",
         "profile",
         "compare",
+        "picture",
+        "plot",
         "study",
         "verify",
         "robots",
@@ -185,6 +187,118 @@ fn help_in_two_lengths() {
         check(&name, &[&short, &long]);
     }
     check("help", &["", "-h", "--help", "--version", "race", "maze"]);
+}
+
+#[test]
+fn pictures() {
+    let [flood, dfs, other] = [
+        "kept/flood-reset.test_maze_01.0.replay.json",
+        "kept/dfs-everything.test_maze_01.0.replay.json",
+        "other/flood-reset.tree-16.0.replay.json",
+    ];
+    let played = [
+        "run flood dfs test_maze_01 --replays kept --ascii",
+        "run flood tree-16 --replays other --ascii",
+    ];
+    let good = [
+        format!("picture {flood} -o end.svg"),
+        format!("picture {flood} -o end.png --bare --step 30 --width 300"),
+        format!("picture {flood} -o costs.svg --step 0 --overlay costs,optimum --theme dark"),
+        format!("picture {flood} {dfs} -o both.png --overlay knowledge,distances"),
+        format!("picture {flood} -o moments.png --sequence 6 --steps ..=30"),
+        format!("picture {flood} {dfs} {other} -o poster.png --poster --title Cup"),
+        format!("picture {flood} {dfs} -o both.gif --width 200 --every 40"),
+        format!("picture {flood} -o one.apng --width 100 --steps 30..=32 --overlay none"),
+        format!("picture {flood} -o end.svg --force --match flood:reset/test_maze_01/0/7"),
+    ];
+    let good = good.iter().map(String::as_str);
+    check(
+        "picture",
+        &played.into_iter().chain(good).collect::<Vec<_>>(),
+    );
+    let bad = [
+        "picture".to_owned(),
+        "picture missing.replay.json -o a.svg".to_owned(),
+        "picture letter.txt -o a.svg".to_owned(),
+        format!("picture {flood}"),
+        format!("picture {flood} -o a.jpg"),
+        format!("picture {flood} -o a"),
+        format!("picture {flood} -o missing/a.png"),
+        format!("picture {flood} -o missing/a.gif"),
+        format!("picture {flood} -o a.svg --step 53"),
+        format!("picture {flood} -o a.svg --step first"),
+        format!("picture {flood} -o a.gif --step 3"),
+        format!("picture {flood} -o a.gif --steps 50..=53"),
+        format!("picture {flood} -o a.gif --steps 9..=3"),
+        format!("picture {flood} -o a.gif --steps 3..9"),
+        format!("picture {flood} -o a.svg --steps 3..=9"),
+        format!("picture {flood} -o a.gif --sequence 4"),
+        format!("picture {flood} {flood} -o a.gif --poster"),
+        format!("picture {flood} -o a.svg --sequence 1"),
+        format!("picture {flood} {dfs} -o a.svg --sequence 4"),
+        format!("picture {flood} {dfs} -o a.svg --bare"),
+        format!("picture {flood} {other} -o a.svg"),
+        format!("picture {flood} {flood} {flood} {flood} {flood} -o a.svg"),
+        format!("picture {flood} -o a.svg --overlay heat,costs"),
+        format!("picture {flood} -o a.svg --overlay beliefs,knowledge"),
+        format!("picture {flood} -o a.svg --overlay none,heat"),
+        format!("picture {flood} -o a.svg --overlay glow"),
+        format!("picture {flood} -o a.svg --title Cup"),
+        format!("picture {flood} -o a.gif --width 8000 --delay 20"),
+        format!("picture {flood} -o a.gif --delay 5"),
+        format!("picture {flood} -o a.gif --every 0"),
+        format!("picture {flood} -o a.png --every 2"),
+        format!("picture {flood} -o letter.txt"),
+        format!("picture {flood} -o a.svg --match nobody"),
+    ];
+    let bad = bad.iter().map(String::as_str);
+    check(
+        "picture-bad-input",
+        &played.into_iter().chain(bad).collect::<Vec<_>>(),
+    );
+}
+
+#[test]
+fn plots() {
+    let played = "run flood dfs test_maze_01 gen:tree:12:1 -o played.json --ascii";
+    check(
+        "plot",
+        &[
+            played,
+            "plot scores played.json -o scores.svg",
+            "plot exploration played.json -o exploration.PNG --width 400",
+            "plot margins played.json --benchmark upper -o margins.png --theme dark --title Cup",
+            "plot regret played.json -o scores.svg --force",
+        ],
+    );
+    check(
+        "plot-bad-input",
+        &[
+            played,
+            "run ahead.wasm test_maze_01 -o unfinished.json --ascii",
+            "run flood test_maze_01 --rules udacity-each-run -o other-rules.json --ascii",
+            "run flood test_maze_01 --seed 7 -o other-seed.json --ascii",
+            "plot",
+            "plot pie played.json -o a.svg",
+            "plot scores played.json",
+            "plot scores missing.json -o a.svg",
+            "plot scores letter.txt -o a.svg",
+            "plot scores ahead.wasm -o a.svg",
+            "plot scores unfinished.json -o a.svg",
+            "plot scores played.json other-rules.json -o a.svg",
+            "plot scores played.json other-seed.json -o a.svg",
+            "plot scores nothing -o a.svg",
+            "plot scores nothing played.json -o a.svg",
+            "plot scores played.json --store contest.db -o a.svg",
+            "plot scores played.json -o a.jpg",
+            "plot scores played.json -o a.gif",
+            "plot scores played.json -o scores",
+            "plot scores played.json -o missing/a.svg",
+            "plot scores played.json -o small.txt",
+            "plot scores played.json -o a.png --width 9",
+            "plot scores played.json -o a.svg --theme green",
+        ],
+    );
 }
 
 /// From nothing to a contest file that can be played, and files that cannot.

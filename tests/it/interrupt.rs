@@ -107,6 +107,38 @@ fn an_interrupted_folder_of_mazes_holds_whole_files() {
     }
 }
 
+/// A picture of a thousand large frames takes minutes in debug mode.
+#[test]
+fn an_interrupted_animated_picture_leaves_no_file() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let kept = folder.path().join("kept");
+    let path = kept.to_str().expect("UTF-8");
+    let args = ["run", "wall-follower", "tree-16", "--replays", path];
+    // It never finishes, and uses all of its 1,000 steps.
+    wasmouse().args(args).output().expect("the program runs");
+    let replay = fs::read_dir(&kept).expect("a folder").next();
+    let replay = replay.expect("a replay").expect("an entry").path();
+    let target = folder.path().join("out");
+    fs::create_dir(&target).expect("a folder");
+    let file = target.join("a.gif");
+    let child = start(&[
+        "picture",
+        replay.to_str().expect("UTF-8"),
+        "--output",
+        file.to_str().expect("UTF-8"),
+        "--width",
+        "1200",
+    ]);
+    let files = || fs::read_dir(&target).map_or(0, Iterator::count);
+    wait("it is being written", || files() > 0);
+    interrupt(&child);
+    let output = child.wait_with_output().expect("the program ends");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{stderr}");
+    let expected = format!("interrupted: `{}` is not written\n", file.display());
+    assert_eq!((stderr.as_ref(), files()), (expected.as_str(), 0));
+}
+
 /// Two robots of very different speed in many mazes: when the contest is interrupted, both have
 /// played about the same mazes, and the standings cover those that both have played.
 #[test]

@@ -66,6 +66,8 @@ mod memory;
 mod minnett;
 /// Good robots in a contest with every hostile one.
 mod mixed_contest;
+/// Pictures and plots: snapshots, pixels, animated files, hostile text.
+mod pictures;
 /// Where the objects in a JSON document are.
 mod pointers;
 /// The prebuilt robots against their sources and their manifest.

@@ -69,6 +69,57 @@ fn the_tutorial_works_to_the_letter() {
     assert!(run(test, folder.path()).contains("finishes_the_first_maze ... ok"));
 }
 
+/// The commands of the page about pictures, among them the one that makes the picture of the README.
+#[test]
+fn pictures_are_drawn_as_documented() {
+    const PICTURES: &str = include_str!("../../docs/PICTURES.md");
+    const SHOWN: &[u8] = include_bytes!("../../docs/images/match.gif");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let blocks = blocks_of(PICTURES, "pictures");
+    assert_eq!(blocks.len(), 5);
+    for block in blocks {
+        run(block, folder.path());
+    }
+    let made = std::fs::read(folder.path().join("docs/images/match.gif")).expect("made");
+    let frames = |bytes: &[u8]| {
+        let mut decoder = gif::DecodeOptions::new()
+            .read_info(bytes)
+            .expect("a GIF file");
+        let size = (decoder.width(), decoder.height());
+        let mut count = 0;
+        while decoder.read_next_frame().expect("valid").is_some() {
+            count += 1;
+        }
+        (size, count)
+    };
+    assert_eq!(
+        frames(SHOWN),
+        frames(&made),
+        "make the picture of the README again"
+    );
+    assert!(SHOWN.len() < 700_000, "{} bytes", SHOWN.len());
+    for picture in [
+        "end.svg",
+        "known.png",
+        "moments.png",
+        "both.gif",
+        "margins.png",
+    ] {
+        assert!(folder.path().join(picture).is_file(), "{picture}");
+    }
+}
+
+#[test]
+fn matches_are_watched_as_documented() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for block in blocks("watch") {
+        run(block, folder.path());
+    }
+    for file in ["page.html", "match.gif", "end.svg", "scores.svg"] {
+        assert!(folder.path().join(file).is_file(), "{file}");
+    }
+}
+
 /// What the page says an audit prints, it prints.
 #[test]
 fn replays_are_kept_and_audited_as_documented() {

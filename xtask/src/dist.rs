@@ -17,13 +17,15 @@ use crate::sources::sha256;
 use crate::step::{Step, target_folder};
 
 /// What an archive holds besides the program: files of the repository.
-const DOCUMENTS: [&str; 6] = [
+const DOCUMENTS: [&str; 7] = [
     "README.md",
     "CHANGELOG.md",
     "LICENSE-APACHE",
     "LICENSE-MIT",
     "SECURITY.md",
     "docs/CI.md",
+    // The font is part of the program.
+    "host/src/report/raster/font/LICENSE_DEJAVU",
 ];
 
 /// Scripts that download an archive, and the beginning of the line in each that says where from.

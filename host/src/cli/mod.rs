@@ -19,6 +19,7 @@ mod explain;
 mod fail_under;
 mod failure;
 mod grade;
+mod image_file;
 mod input;
 mod inspect;
 mod interrupt;
@@ -31,8 +32,10 @@ mod new;
 mod output;
 mod page;
 mod pattern;
+mod picture;
 mod play;
 pub mod player;
+mod plot;
 mod profile;
 mod project;
 mod replay;
@@ -47,6 +50,8 @@ mod setup;
 mod store_failure;
 mod study;
 mod terminal;
+mod theme;
+
 mod trial;
 mod tui;
 mod verdict;
@@ -82,6 +87,8 @@ enum Command {
     Drive(drive::Args),
     Grade(grade::Args),
     Compare(compare::Args),
+    Picture(picture::Args),
+    Plot(plot::Args),
     Study(study::Args),
     Verify(verify::Args),
     Replay(replay::Args),
@@ -139,6 +146,8 @@ fn command() -> ExitCode {
         Command::Drive(args) => drive::run(&args),
         Command::Grade(args) => grade::run(&args),
         Command::Compare(args) => compare::run(&args),
+        Command::Picture(args) => picture::run(&args),
+        Command::Plot(args) => plot::run(&args),
         Command::Study(args) => study::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Replay(args) => replay::run(&args),

@@ -75,7 +75,9 @@ impl Margins {
                 if played.outcome == Outcome::Finished {
                     let speed = i64::from(played.steps.speed) - i64::from(oracle.speed_steps());
                     let exploration = i64::from(played.steps.exploration);
-                    margins.push(allowed - exploration - speed.saturating_mul(divisor));
+                    // Recorded numbers may be anything.
+                    let lost = speed.saturating_mul(divisor).saturating_add(exploration);
+                    margins.push(allowed.saturating_sub(lost));
                 }
             }
         }
@@ -116,7 +118,8 @@ impl Margins {
     pub fn histogram(&self, first: i64, width: u32, count: usize) -> Vec<u64> {
         let mut counts = vec![0; count];
         for margin in &self.margins {
-            let bin = (margin.div_euclid(self.divisor) - first).div_euclid(width.into());
+            let margin = margin.div_euclid(self.divisor);
+            let bin = margin.saturating_sub(first).div_euclid(width.into());
             let bin = usize::try_from(bin).ok();
             if let Some(count) = bin.and_then(|bin| counts.get_mut(bin)) {
                 *count += 1;

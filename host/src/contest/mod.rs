@@ -19,6 +19,7 @@ mod maze_source;
 mod mean;
 mod plan;
 mod ranking;
+mod recorded;
 mod results;
 mod run;
 mod scoring;
@@ -50,6 +51,7 @@ pub use plan::{Entrant, KeyParts, NotAdmitted, Plan, Player, Seeds};
 pub use ranking::{
     MazeFilter, PairedComparison, PairedVerdict, Percentiles, Ranking, RankingLine, RobotState,
 };
+pub use recorded::{RecordedError, RecordedScores};
 pub use results::{
     ContestInfo, MazeEntry, Names, RESULTS_VERSION, RejectionEntry, Results, RobotEntry, Summary,
     SummaryBuilder, WithdrawalEntry, records_digest,

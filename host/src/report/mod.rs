@@ -5,6 +5,7 @@
 //! from parts of them. Small JSON documents have structs of their own here, so that the domain
 //! types can change without changing what other programs read.
 
+pub mod animation;
 pub mod audit;
 pub mod backtrace;
 pub mod built;
@@ -24,22 +25,24 @@ pub mod jsonl;
 pub mod match_link;
 pub mod maze_check;
 pub mod maze_solve;
-mod moment;
 mod number;
 mod paired;
 mod paths;
 pub mod picture;
+pub mod plot;
 pub mod profile;
+pub mod raster;
 pub mod results_json;
 #[cfg(test)]
 mod sample;
 #[cfg(test)]
 mod sample_matrix;
+pub mod scene;
 mod standings;
 pub mod study;
 pub mod table;
 pub mod text;
+mod text_width;
 pub mod verification;
 
-pub use moment::moment;
 pub use paths::paths;

@@ -56,7 +56,13 @@ fn an_archive_has_the_program_and_the_documents() {
         assert_eq!(*program, (0o755, PROGRAM.to_owned()));
         let version = version(&xtask::repository()).expect("a version");
         assert_eq!(files[&format!("{top}VERSION")].1, format!("{version}\n"));
-        for document in ["README.md", "LICENSE-MIT", "LICENSE-APACHE", "CI.md"] {
+        for document in [
+            "README.md",
+            "LICENSE-MIT",
+            "LICENSE-APACHE",
+            "LICENSE_DEJAVU",
+            "CI.md",
+        ] {
             let (mode, text) = &files[&format!("{top}{document}")];
             assert!(*mode == 0o644 && !text.is_empty(), "{document}");
         }

@@ -14,12 +14,15 @@ mod report;
 mod resolve;
 mod reveal;
 mod run;
+mod scores;
 mod shard;
 mod status;
 mod watch;
 
 use super::exit::Exit;
 use super::failure::Failure;
+
+pub use scores::scores;
 
 /// Arguments of `wasmouse contest`.
 #[derive(clap::Args)]

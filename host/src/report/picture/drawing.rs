@@ -57,6 +57,8 @@ pub struct Picture {
     pub(super) stops: Vec<Cell>,
     pub(super) optimum: Vec<Cell>,
     pub(super) robot: Option<(Cell, Heading)>,
+    /// What is hot, at least.
+    hot: u32,
 }
 
 impl Picture {
@@ -90,6 +92,7 @@ impl Picture {
             stops: Vec::new(),
             optimum: Vec::new(),
             robot: None,
+            hot: 1,
         }
     }
 
@@ -138,6 +141,12 @@ impl Picture {
     /// Colours every cell that has a distance, the farthest hottest.
     pub fn set_heat(&mut self, distances: &Distances) {
         self.for_each_mark(|cell, mark| mark.heat = distances.get(cell));
+    }
+
+    /// Sets the least temperature that is hot, so that pictures in which all cells are about as warm
+    /// are not all hot. Default: 1.
+    pub const fn set_hot(&mut self, heat: u32) {
+        self.hot = heat;
     }
 
     /// What is shown in a cell; `None` outside the maze.
@@ -194,7 +203,13 @@ impl Picture {
     /// How hot a cell is, from 0 to `levels`; a temperature of 0 is level 0.
     pub(super) fn heat_level(&self, cell: Cell, levels: u32) -> Option<u32> {
         let heat = self.mark(cell).heat?;
-        let hottest = self.marks.iter().filter_map(|mark| mark.heat).max()?.max(1);
+        let hottest = self
+            .marks
+            .iter()
+            .filter_map(|mark| mark.heat)
+            .max()?
+            .max(self.hot)
+            .max(1);
         // 64 bits, because any number may be given as a temperature.
         let level = (u64::from(heat) * u64::from(levels)).div_ceil(u64::from(hottest));
         Some(u32::try_from(level).expect("at most `levels`"))

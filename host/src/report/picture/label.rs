@@ -44,7 +44,7 @@ impl fmt::Display for Label {
 }
 
 /// A text of any length, with the same characters replaced as in labels.
-pub(super) fn replace_hostile(text: &str) -> String {
+pub(in crate::report) fn replace_hostile(text: &str) -> String {
     text.chars().map(replaced).collect()
 }
 

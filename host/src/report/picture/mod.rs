@@ -7,13 +7,18 @@
 mod drawing;
 mod label;
 mod paint;
+mod sheet;
 mod svg;
 #[cfg(test)]
 mod tests;
 mod text;
+mod theme;
 
 pub use drawing::{Mark, Picture, Wall};
+pub(super) use label::replace_hostile;
 pub use label::{LABEL_CHARS_MAX, Label};
 pub use paint::Paint;
-pub use svg::SVG_STYLE;
+pub use sheet::{Caption, Sheet};
+pub(super) use svg::escaped;
 pub use text::{Charset, TextStyle};
+pub use theme::{SVG_STYLE, Theme};

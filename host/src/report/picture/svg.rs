@@ -10,7 +10,10 @@ use std::fmt::Write as _;
 
 use wasmouse_core::maze::{Cell, Heading};
 
+use crate::report::text_width::width_of;
+
 use super::drawing::{Mark, Picture, Wall, cells};
+use super::theme::Theme;
 
 /// The side of a cell in SVG units.
 const CELL: u32 = 20;
@@ -21,67 +24,76 @@ const MARGIN: u32 = 6;
 /// Levels of heat above cold.
 const HEAT_LEVELS: u32 = 20;
 
-/// The style sheet of all pictures. A page that [embeds](Picture::to_svg_element) some needs it
-/// once; its classes begin with `maze-`, so that they are of no concern to the rest of the page.
-pub const SVG_STYLE: &str = "\
-.maze-ground{fill:#fff}.maze-start{fill:#3e7bfa;fill-opacity:.3}
-.maze-goal{fill:#30a46c;fill-opacity:.3}
-.maze-heat{fill:none;stroke:#e5484d;stroke-width:20}
-.maze-wall{fill:none;stroke:#1b1c20;stroke-width:2;stroke-linecap:round}
-.maze-unknown{fill:none;stroke:#8b8d98;stroke-width:2;stroke-linecap:round;stroke-dasharray:0 5}
-.maze-dot{fill:#8b8d98}
-.maze-path{fill:none;stroke:#3e7bfa;stroke-width:3;stroke-linejoin:round;stroke-linecap:round}
-.maze-stop{fill:none;stroke:#3e7bfa;stroke-width:9;stroke-linecap:round}
-.maze-optimum{fill:none;stroke:#218358;stroke-width:7;stroke-linejoin:round;stroke-opacity:.55}
-.maze-robot{fill:#d6409f;stroke:#fff;stroke-width:1}
-.maze-text{font-family:ui-sans-serif,system-ui,sans-serif;text-anchor:middle;fill:#1b1c20}
-.maze-on-path{stroke:#fff;stroke-width:2;stroke-linejoin:round}
-@media screen and (prefers-color-scheme:dark){.maze-ground{fill:#16171b}.maze-wall{stroke:#e8e8ec}
-.maze-optimum{stroke:#3dd68c}.maze-text{fill:#f2f2f5}.maze-on-path,.maze-robot{stroke:#16171b}}";
-
 impl Picture {
     /// The picture as an SVG document with a line feed at its end.
     pub fn to_svg(&self) -> String {
+        self.to_svg_in(Theme::Auto)
+    }
+
+    /// The picture as an SVG document in a theme, with a line feed at its end.
+    pub fn to_svg_in(&self, theme: Theme) -> String {
         self.svg(
             " xmlns=\"http://www.w3.org/2000/svg\"",
-            &format!("<style>{SVG_STYLE}</style>\n"),
+            &format!("<style>{}</style>\n", theme.style()),
         )
     }
 
-    /// The picture as an element of an HTML page that has [`SVG_STYLE`].
+    /// The picture as an element of an HTML page that has [`SVG_STYLE`](super::SVG_STYLE).
     pub fn to_svg_element(&self) -> String {
         self.svg("", "")
     }
 
+    /// The picture as a part of a larger drawing that has [`SVG_STYLE`](super::SVG_STYLE): a square
+    /// of that side with its upper left corner at `(x, y)`.
+    pub(super) fn to_svg_group(&self, (x, y): (u32, u32), side: u32) -> String {
+        let scale = f64::from(side) / f64::from(self.side());
+        // A group and not an `svg` element, because that one would be clipped, which takes time.
+        let mut svg = format!("<g transform=\"translate({x} {y}) scale({scale:.5})\">\n");
+        self.content("", &mut svg);
+        svg.push_str("</g>\n");
+        svg
+    }
+
     fn svg(&self, namespace: &str, style: &str) -> String {
-        let mut svg = String::new();
-        self.head(namespace, style, &mut svg);
-        self.heat(&mut svg);
-        self.grounds(&mut svg);
-        self.walls_of(Wall::Unknown, "unknown", &mut svg);
-        self.dots(&mut svg);
-        self.walls_of(Wall::Closed, "wall", &mut svg);
-        self.perimeter(&mut svg);
-        self.optimum_line(&mut svg);
-        self.path_line(&mut svg);
-        self.texts(&mut svg);
-        self.robot_shape(&mut svg);
+        let side = self.side();
+        // How large it is shown where nobody says otherwise.
+        let shown = 2 * side;
+        let mut svg = format!(
+            "<svg{namespace} viewBox=\"0 0 {side} {side}\" \
+             width=\"{shown}\" height=\"{shown}\" role=\"img\">\n"
+        );
+        self.content(style, &mut svg);
         svg.push_str("</svg>\n");
         svg
     }
 
-    fn head(&self, namespace: &str, style: &str, svg: &mut String) {
-        let side = u32::from(self.dimension) * CELL + 2 * MARGIN;
-        // How large it is shown where nobody says otherwise.
-        let shown = 2 * side;
+    /// The width and height of the drawing in its own units.
+    fn side(&self) -> u32 {
+        u32::from(self.dimension) * CELL + 2 * MARGIN
+    }
+
+    fn content(&self, style: &str, svg: &mut String) {
+        self.head(style, svg);
+        self.heat(svg);
+        self.grounds(svg);
+        self.walls_of(Wall::Unknown, "unknown", svg);
+        self.dots(svg);
+        self.walls_of(Wall::Closed, "wall", svg);
+        self.perimeter(svg);
+        self.optimum_line(svg);
+        self.path_line(svg);
+        self.texts(svg);
+        self.robot_shape(svg);
+    }
+
+    fn head(&self, style: &str, svg: &mut String) {
+        let side = self.side();
         let title = escaped(&self.title);
         let description = escaped(&self.description());
         write(
             svg,
             format_args!(
-                "<svg{namespace} viewBox=\"0 0 {side} {side}\" \
-                 width=\"{shown}\" height=\"{shown}\" role=\"img\">\n\
-                 <title>{title}</title>\n<desc>{description}</desc>\n\
+                "<title>{title}</title>\n<desc>{description}</desc>\n\
                  {style}<rect class=\"maze-ground\" width=\"{side}\" height=\"{side}\"/>\n"
             ),
         );
@@ -261,7 +273,8 @@ impl Picture {
     /// as it must be to fit.
     fn text(&self, cell: Cell, text: &str, down: i64, svg: &mut String) {
         let (x, y) = self.middle(cell);
-        let length = u32::try_from(text.chars().count()).unwrap_or(u32::MAX);
+        // As if all characters were as wide as a digit.
+        let length = width_of(text).div_ceil(width_of("0"));
         // In tenths of a unit; a character is about 0.6 of the size wide.
         let size = (10 * (CELL - 2) * 10 / 6 / length.max(1)).min(85);
         let baseline = i64::from(y) * 10 + down * 10 + i64::from(size) * 35 / 100;
@@ -289,13 +302,21 @@ impl Picture {
             return;
         };
         let (x, y) = self.middle(cell);
-        let degrees = heading as u32 * 90;
+        // Tip, right wing, notch, left wing. Not turned by a transform: sines differ in their last
+        // bits between machines, and so would pixels.
+        let corners = [(0, -8), (6, 6), (0, 3), (-6, 6)].map(|(right, down)| {
+            let (right, down) = match heading {
+                Heading::Up => (right, down),
+                Heading::Right => (-down, right),
+                Heading::Down => (-right, -down),
+                Heading::Left => (down, -right),
+            };
+            format!("{} {}", i64::from(x) + right, i64::from(y) + down)
+        });
+        let outline = corners.join("L");
         write(
             svg,
-            format_args!(
-                "<path class=\"maze-robot\" d=\"M0 -8L6 6L0 3L-6 6Z\" \
-                 transform=\"translate({x} {y}) rotate({degrees})\"/>\n"
-            ),
+            format_args!("<path class=\"maze-robot\" d=\"M{outline}Z\"/>\n"),
         );
     }
 
@@ -333,7 +354,7 @@ fn write(text: &mut String, part: std::fmt::Arguments<'_>) {
 }
 
 /// The text for use between XML tags and in attributes.
-fn escaped(text: &str) -> String {
+pub(in crate::report) fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for character in text.chars() {
         match character {
