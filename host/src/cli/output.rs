@@ -131,6 +131,8 @@ pub fn finish(exit: Exit) -> Exit {
             Exit::Success => Exit::Unread,
             other => other,
         },
+        // It was the terminal that was closed.
+        Some(_) if exit == Exit::HungUp => exit,
         Some(error) => {
             write_message(&stdout_failure(error).report());
             Exit::Internal

@@ -2,6 +2,7 @@
 
 use std::env;
 use std::io::{self, IsTerminal as _, Stdout};
+use std::mem::ManuallyDrop;
 use std::panic;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Once};
@@ -74,7 +75,9 @@ fn end_after_signals(interrupted: &'static CancelFlag, has_ended: Arc<AtomicBool
 
 /// The alternate screen, left when it goes out of scope.
 struct Screen {
-    terminal: Terminal<CrosstermBackend<Stdout>>,
+    /// Never dropped: it would show the cursor once more, and panic if it cannot say that the
+    /// terminal has gone.
+    terminal: ManuallyDrop<Terminal<CrosstermBackend<Stdout>>>,
     keyboard: Keyboard,
 }
 
@@ -102,7 +105,10 @@ impl Screen {
             cursor::Hide
         )?;
         let terminal = Terminal::new(CrosstermBackend::new(io::stdout()))?;
-        Ok(Self { terminal, keyboard })
+        Ok(Self {
+            terminal: ManuallyDrop::new(terminal),
+            keyboard,
+        })
     }
 
     fn run(&mut self, app: &mut impl App, is_interrupted: impl Fn() -> bool) -> io::Result<Exit> {
