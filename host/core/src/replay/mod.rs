@@ -1,7 +1,7 @@
 //! [`Replay`]: one match in one file, to be watched without the robot.
 //!
 //! A replay holds the maze, the rules, the record and the robot's actions; everything else follows
-//! from them ([`Playback`]). It is checked when it is read, so a `Replay` is always a match that
+//! from them ([`Playback`](crate::playback::Playback)). It is checked when it is read, so a `Replay` is always a match that
 //! can have happened.
 
 mod error;

@@ -7,6 +7,7 @@ mod page;
 mod parts;
 mod pictures;
 mod player;
+mod plots;
 mod scale;
 mod scatter;
 mod scores;

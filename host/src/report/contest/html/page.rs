@@ -11,7 +11,7 @@ use wasmouse_core::Digest;
 
 use super::parts::shown;
 use super::player::{self, Player};
-use super::{boxes, method, pictures, scatter, scores, standings};
+use super::{boxes, method, pictures, plots, scatter, scores, standings};
 use crate::report::contest::document::ContestReport;
 use crate::report::contest::view::View;
 use crate::report::contest::words::{self, count};
@@ -50,6 +50,7 @@ pub fn html(report: &ContestReport<'_>) -> String {
             boxes::boxes(&view),
         ),
         ("runs", "Exploration and speed run", scatter::scatter(&view)),
+        ("plots", "Plots", plots::plots(&view)),
         ("matches", "Robots by mazes", scores::scores(&view, player)),
         (
             "best",
@@ -118,8 +119,8 @@ fn page(view: &View<'_>, sections: &[Section], player: Option<&Player>) -> Strin
     .into_string()
 }
 
-/// A policy that allows this style sheet and these scripts and nothing else; the player compiles
-/// the WebAssembly that the page brings.
+/// A policy that allows this style sheet, these scripts and images inside the page, and nothing else;
+/// the player compiles the WebAssembly that the page brings.
 fn policy(style: &str, has_player: bool) -> String {
     let source = |text: &str| {
         let hash = BASE64.encode(Digest::of(text.as_bytes()).as_bytes());
@@ -131,7 +132,7 @@ fn policy(style: &str, has_player: bool) -> String {
         String::new()
     };
     format!(
-        "default-src 'none'; style-src {}; script-src {}{player}; base-uri 'none'; \
+        "default-src 'none'; img-src data:; style-src {}; script-src {}{player}; base-uri 'none'; \
          form-action 'none'",
         source(style),
         source(SCRIPT)
