@@ -2,8 +2,8 @@
 //!
 //! A match takes less than a millisecond, so it is played first and shown afterwards, from its
 //! [`Playback`](wasmouse_core::playback::Playback) alone. [`Show`] is a match to show,
-//! [`control`] what keys do, [`account`] what happened in words, [`scenes`] what is in the mazes,
-//! and [`view`] where everything is on the screen. [`play`] needs a terminal; [`Player`] draws
+//! `control` what keys do, `account` what happened in words, `scenes` what is in the mazes,
+//! and `view` where everything is on the screen. [`play`] needs a terminal; [`Player`] draws
 //! into any buffer of cells.
 
 mod account;
