@@ -239,6 +239,13 @@ fn outline(page: &str) -> String {
     let (before, after) = without_drawings.split_once("'sha256-").expect("a policy");
     let (_, after) = after.split_once("base-uri").expect("its end");
     let page = format!("{before}(hashes) base-uri{after}");
+    // Plots have snapshots of their own.
+    let mut images = page.split("data:image/svg+xml;base64,");
+    let mut page = images.next().unwrap_or_default().to_owned();
+    for part in images {
+        let (_, after) = part.split_once('"').expect("the end of an attribute");
+        page.push_str(&format!("(image)\"{after}"));
+    }
     let version = env!("CARGO_PKG_VERSION");
     page.replace("><", ">\n<")
         .replace(&format!("wasmouse {version}"), "wasmouse VERSION")

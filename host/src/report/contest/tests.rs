@@ -138,11 +138,14 @@ fn what_is_hidden_is_in_no_format() {
             format == "matches.csv" || text.contains(&digest[..8]),
             "{format}:\n{text}"
         );
+        // Plots show everything.
+        assert!(!text.contains("data:image"), "{format}:\n{text}");
     }
     // Without the options they are all there.
     let shown = formats(&sample.report(ReportOptions::default()));
     let [json, html] =
         ["json", "html"].map(|name| &shown.iter().find(|it| it.0 == name).expect("a format").1);
+    assert!(html.contains("data:image"), "{html}");
     for secret in [
         "flood",
         "robot-name",

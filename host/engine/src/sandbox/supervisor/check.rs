@@ -241,7 +241,7 @@ mod tests {
         );
         check_change(
             |it| it.transcript = Ok(vec![1, 0]),
-            Some("the transcript ends before the match does"),
+            Some("the transcript ends after step 0, before the match does"),
         );
         check_change(
             |it| it.transcript = Ok(vec![1]),
