@@ -66,7 +66,7 @@ pub(super) fn plots(view: &View<'_>) -> Option<Markup> {
             @for (light, dark, words) in &images {
                 figure.plot { picture {
                     source media="(prefers-color-scheme: dark)" srcset=(dark);
-                    img src=(light) alt=(words) loading="lazy";
+                    img src=(light) alt=(words);
                 } }
             }
         }
