@@ -96,7 +96,7 @@ fn a_run_keeps_replays_that_are_listed_and_audited() {
     );
     assert!(!replay.parts().journal.is_empty(), "this robot writes");
 
-    // What is there already stays.
+    // Files that exist are kept.
     let again = run(folder, &[&arguments[..], &["--replays", "best"]].concat());
     assert_eq!(again.status.code(), Some(3));
     assert!(again.stderr.contains("already exists"), "{}", again.stderr);

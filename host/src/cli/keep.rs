@@ -47,7 +47,7 @@ impl KeepArgs {
     /// # Errors
     ///
     /// When the folder cannot be created, or there are too many matches.
-    pub fn keeper(&self, plan: &Plan) -> Result<Option<Keeper>, Failure> {
+    pub fn sink(&self, plan: &Plan) -> Result<Option<ReplaySink>, Failure> {
         let Some(folder) = &self.replays else {
             return Ok(None);
         };
@@ -61,8 +61,8 @@ impl KeepArgs {
         }
         fs::create_dir_all(folder).map_err(|error| output::failure(folder, &error))?;
         Ok(Some(match self.keep {
-            Kept::Best => Keeper::Best(BestMatches::default()),
-            Kept::All => Keeper::All {
+            Kept::Best => ReplaySink::Best(BestMatches::default()),
+            Kept::All => ReplaySink::All {
                 maze: None,
                 matches: Vec::new(),
             },
@@ -77,7 +77,7 @@ impl KeepArgs {
     /// When a file cannot be written.
     pub fn write(
         &self,
-        keeper: Keeper,
+        sink: ReplaySink,
         plan: &Plan,
         players: &[Player],
         executor: &dyn Executor,
@@ -85,7 +85,7 @@ impl KeepArgs {
     ) -> Result<(), Failure> {
         let folder = self.replays.as_deref().unwrap_or(Path::new("."));
         let (mut names, mut count) = (BTreeSet::new(), 0_u64);
-        for kept in keeper.into_matches() {
+        for kept in sink.into_matches() {
             let replay = replay(&kept, plan, players, executor)?;
             let path = folder.join(file_name(&replay, &mut names));
             let mut json = serde_json::to_vec(&replay).expect("a replay has a JSON form");
@@ -104,7 +104,7 @@ impl KeepArgs {
 
 /// Collects matches while they are played.
 #[derive(Debug)]
-pub enum Keeper {
+pub enum ReplaySink {
     /// The best of each player.
     Best(BestMatches),
     /// All of them.
@@ -116,7 +116,7 @@ pub enum Keeper {
     },
 }
 
-impl Keeper {
+impl ReplaySink {
     fn into_matches(self) -> Vec<BestMatch> {
         match self {
             Self::Best(best) => best.into_best().into_iter().flatten().collect(),
@@ -125,7 +125,7 @@ impl Keeper {
     }
 }
 
-impl Sink for Keeper {
+impl Sink for ReplaySink {
     fn maze(&mut self, next: &ContestMaze) -> io::Result<()> {
         match self {
             Self::Best(best) => best.maze(next),

@@ -10,7 +10,7 @@ use wasmouse_engine::LocalExecutor;
 
 use super::exit::Exit;
 use super::failure::Failure;
-use super::keep::{KeepArgs, Keeper};
+use super::keep::{KeepArgs, ReplaySink};
 use super::mazes::{self, BadFiles, Legality};
 use super::output::{self, Draft, Existing, Stdout, message};
 use super::page::PageBuilder;
@@ -166,8 +166,8 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         jobs: args.setup.jobs(),
         robot_time: args.time.robot_time(),
     };
-    let mut keeper = args.keep.keeper(&plan)?;
-    let played = args.play(&plan, &players, &executor, pace, (file, keeper.as_mut()))?;
+    let mut replays = args.keep.sink(&plan)?;
+    let played = args.play(&plan, &players, &executor, pace, (file, replays.as_mut()))?;
 
     // Results come first, whatever happens to what is replayed for the user afterwards.
     let results = &played.results;
@@ -182,10 +182,10 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     if let (Some(html), Some(path), Some(page)) = (html, &args.html, played.page) {
         page.write(html, path, &plan, (results.summary.digest, &complaints))?;
     }
-    if let Some(keeper) = keeper {
+    if let Some(replays) = replays {
         let players = players.as_slice();
         args.keep
-            .write(keeper, &plan, players, &executor, existing)?;
+            .write(replays, &plan, players, &executor, existing)?;
     }
     let mut exit = exit(&plan, results);
     if exit == Exit::Interrupted {
@@ -286,7 +286,7 @@ impl Args {
         players: &[Player],
         executor: &LocalExecutor,
         pace: Pace,
-        (file, keeper): (Option<Draft>, Option<&mut Keeper>),
+        (file, replays): (Option<Draft>, Option<&mut ReplaySink>),
     ) -> Result<Played, Failure> {
         let contest = ContestInfo::new(plan);
         let mut standings = StandingsBuilder::new(plan, players);
@@ -315,7 +315,7 @@ impl Args {
             vec![&mut standings, &mut summary, &mut faults, &mut list];
         sinks.extend(page.iter_mut().flat_map(PageBuilder::sinks));
         sinks.extend(matrix.as_mut().map(|it| it as &mut dyn Sink));
-        sinks.extend(keeper.map(|it| it as &mut dyn Sink));
+        sinks.extend(replays.map(|it| it as &mut dyn Sink));
         sinks.extend(file.as_mut().map(FileWriter::sink));
         sinks.extend(stdout.as_mut().map(|it| it as &mut dyn Sink));
         play_all(plan, executor, pace, &mut Tee(sinks))?;

@@ -1,7 +1,7 @@
 //! What is in the mazes of a match at a position.
 
 use wasmouse_core::game::Run;
-use wasmouse_core::journal::{Belief, Color, Journal, Note};
+use wasmouse_core::journal::{Belief, Journal, Note};
 use wasmouse_core::maze::{Maze, Metric, distances_to_goal, shortest_path};
 use wasmouse_core::playback::{Playback, Position};
 
@@ -99,7 +99,7 @@ fn add_marks(scene: &mut Scene, journal: &Journal, position: usize) {
         match note {
             Note::Paint { cell, color } => {
                 if let Some(mark) = scene.mark_mut(cell) {
-                    mark.paint = paint(color);
+                    mark.paint = Paint::of(color);
                 }
             }
             Note::Label { cell, text } => {
@@ -117,18 +117,4 @@ fn until(journal: &Journal, position: usize) -> impl Iterator<Item = Note<'_>> {
     entries
         .filter(move |entry| entry.step as usize <= position)
         .map(|entry| entry.note)
-}
-
-const fn paint(color: Color) -> Option<Paint> {
-    Some(match color {
-        Color::None => return None,
-        Color::Red => Paint::Red,
-        Color::Orange => Paint::Orange,
-        Color::Yellow => Paint::Yellow,
-        Color::Green => Paint::Green,
-        Color::Cyan => Paint::Cyan,
-        Color::Blue => Paint::Blue,
-        Color::Violet => Paint::Violet,
-        Color::Gray => Paint::Gray,
-    })
 }

@@ -1,5 +1,7 @@
 //! [`Paint`]: the colours a cell can be painted in.
 
+use wasmouse_core::journal::Color;
+
 /// A colour of a cell. Every renderer also shows its [`letter`](Paint::letter)
 /// or its name, so that no picture depends on seeing colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -27,6 +29,21 @@ impl Paint {
         Self::Violet,
         Self::Gray,
     ];
+
+    /// The colour that a robot painted a cell with; `None` removes it.
+    pub const fn of(color: Color) -> Option<Self> {
+        Some(match color {
+            Color::None => return None,
+            Color::Red => Self::Red,
+            Color::Orange => Self::Orange,
+            Color::Yellow => Self::Yellow,
+            Color::Green => Self::Green,
+            Color::Cyan => Self::Cyan,
+            Color::Blue => Self::Blue,
+            Color::Violet => Self::Violet,
+            Color::Gray => Self::Gray,
+        })
+    }
 
     /// `red`, `orange` and so on.
     pub const fn name(self) -> &'static str {

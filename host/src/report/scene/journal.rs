@@ -1,6 +1,6 @@
 //! What a robot wrote to its journal, drawn: colours, labels, and the walls that it believes in.
 
-use wasmouse_core::journal::{Belief, Color, Entry, Journal, Note};
+use wasmouse_core::journal::{Belief, Entry, Journal, Note};
 
 use crate::report::picture::{Label, Paint, Picture, Wall};
 
@@ -11,7 +11,7 @@ pub(super) fn draw_marks(picture: &mut Picture, journal: &Journal, steps: usize)
             Note::Log { .. } | Note::Wall { .. } => {}
             Note::Paint { cell, color } => {
                 if let Some(mark) = picture.mark_mut(cell) {
-                    mark.paint = paint(color);
+                    mark.paint = Paint::of(color);
                 }
             }
             Note::Label { cell, text } => {
@@ -50,18 +50,4 @@ pub(super) const fn wall(belief: Belief) -> Wall {
 fn written(journal: &Journal, steps: usize) -> impl Iterator<Item = Entry<'_>> {
     let seen = move |step: u32| usize::try_from(step).is_ok_and(|step| step <= steps);
     journal.entries().filter(move |entry| seen(entry.step))
-}
-
-const fn paint(color: Color) -> Option<Paint> {
-    Some(match color {
-        Color::None => return None,
-        Color::Red => Paint::Red,
-        Color::Orange => Paint::Orange,
-        Color::Yellow => Paint::Yellow,
-        Color::Green => Paint::Green,
-        Color::Cyan => Paint::Cyan,
-        Color::Blue => Paint::Blue,
-        Color::Violet => Paint::Violet,
-        Color::Gray => Paint::Gray,
-    })
 }
