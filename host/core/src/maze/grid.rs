@@ -71,23 +71,25 @@ impl Walls {
         if !DIMENSIONS.contains(&dimension) || values.len() != column * column {
             return None;
         }
-        let is_open = |value: u8, heading: Heading| value & heading.bit() != 0;
-        for (at, &value) in values.iter().enumerate() {
-            let (x, y) = (at / column, at % column);
-            let above = if y + 1 < column { values[at + 1] } else { 0 };
-            let right = if x + 1 < column {
-                values[at + column]
-            } else {
-                0
-            };
-            let agrees = value < 16
-                && is_open(value, Heading::Up) == is_open(above, Heading::Down)
-                && is_open(value, Heading::Right) == is_open(right, Heading::Left)
-                && !(y == 0 && is_open(value, Heading::Down))
-                && !(x == 0 && is_open(value, Heading::Left));
-            if !agrees {
-                return None;
+        // Workers read a maze for every few matches, so all cells are compared without a branch:
+        // a bit of `wrong` is set where two cells disagree, or where there can be no opening.
+        let side = |value: u8, heading: Heading| value >> heading as u8 & 1;
+        let mut wrong = values.iter().fold(0, |all, value| all | value & 0xf0);
+        for cells in values.chunks_exact(column) {
+            wrong |= side(cells[0], Heading::Down) | side(cells[column - 1], Heading::Up);
+            for (below, above) in cells.iter().zip(&cells[1..]) {
+                wrong |= side(*below, Heading::Up) ^ side(*above, Heading::Down);
             }
+        }
+        let (first, last) = (&values[..column], &values[values.len() - column..]);
+        for (left, right) in first.iter().zip(last) {
+            wrong |= side(*left, Heading::Left) | side(*right, Heading::Right);
+        }
+        for (left, right) in values.iter().zip(&values[column..]) {
+            wrong |= side(*left, Heading::Right) ^ side(*right, Heading::Left);
+        }
+        if wrong != 0 {
+            return None;
         }
         Some(Self {
             dimension,

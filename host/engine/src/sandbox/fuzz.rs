@@ -146,6 +146,7 @@ fn check_report(report: MatchReport) -> bool {
     };
     let has_details = report.details.is_some();
     let transcript = report.transcript.as_ref().ok().cloned();
+    let transcript = transcript.map(serde_bytes::ByteBuf::into_vec);
     let mut recording = Recording::default();
     let Ok(Ok(record)) = check(report, &spec, &mut recording) else {
         return false;
@@ -347,7 +348,7 @@ mod tests {
         let detail = "executed `unreachable`".to_owned();
         transcript.end_with_fault(FaultKind::Unreachable, Phase::NextMove, detail);
         MatchReport {
-            transcript: Ok(transcript.to_bytes()),
+            transcript: Ok(transcript.to_bytes().into()),
             usage: Usage {
                 fuel: FuelUse {
                     start: 1,

@@ -11,6 +11,7 @@ use std::time::Duration;
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use serde_bytes::ByteBuf;
 use wasmouse_core::Digest;
 use wasmouse_core::game::{FaultKind, Ruleset};
 use wasmouse_core::journal::{Belief, Color, Level, Note};
@@ -75,6 +76,7 @@ pub(super) enum Request {
         /// plays, and the supervisor makes the record.
         digest: Digest,
         /// Its identity bytes.
+        #[serde(with = "serde_bytes")]
         bytes: Vec<u8>,
     },
     /// Play matches. Answered by one [`MatchReport`] for each, in order.
@@ -123,7 +125,7 @@ pub(super) enum Loaded {
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct MatchReport {
     /// The encoded transcript, or why the worker could not play the match.
-    pub(super) transcript: Result<Vec<u8>, RunFailure>,
+    pub(super) transcript: Result<ByteBuf, RunFailure>,
     /// What the robot used.
     pub(super) usage: Usage,
     /// Fuel by step and the journal, when asked for.

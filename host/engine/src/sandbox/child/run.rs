@@ -4,6 +4,7 @@ use std::io::{self, BufWriter, Read, Write};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use serde_bytes::ByteBuf;
 use wasmouse_core::Digest;
 use wasmouse_core::maze::Maze;
 use wasmouse_core::record::{GameResult, MatchKey, MatchSpec, Usage};
@@ -240,7 +241,7 @@ fn report(
     details: bool,
 ) -> MatchReport {
     let (transcript, usage) = match ran {
-        Ok((_, usage)) => (Ok(recording.transcript.to_bytes()), usage),
+        Ok((_, usage)) => (Ok(ByteBuf::from(recording.transcript.to_bytes())), usage),
         Err(InfrastructureError::Slow { seconds }) => {
             (Err(RunFailure::Slow { seconds }), Usage::default())
         }

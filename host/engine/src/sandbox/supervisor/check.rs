@@ -172,7 +172,7 @@ mod tests {
     /// A robot that failed in its first step, reported with details.
     fn failed() -> MatchReport {
         MatchReport {
-            transcript: Ok(transcript("executed `unreachable`".into())),
+            transcript: Ok(transcript("executed `unreachable`".into()).into()),
             usage: Usage {
                 fuel: FuelUse {
                     start: 1,
@@ -236,15 +236,15 @@ mod tests {
         check_change(|it| it.usage.memory_bytes = u64::MAX, memory);
         let detail = transcript("x".repeat(DETAIL_BYTES_MAX + 1));
         check_change(
-            |it| it.transcript = Ok(detail),
+            |it| it.transcript = Ok(detail.into()),
             Some("the detail of a fault is too long"),
         );
         check_change(
-            |it| it.transcript = Ok(vec![1, 0]),
+            |it| it.transcript = Ok(vec![1, 0].into()),
             Some("the transcript ends after step 0, before the match does"),
         );
         check_change(
-            |it| it.transcript = Ok(vec![1]),
+            |it| it.transcript = Ok(vec![1].into()),
             Some("the transcript is truncated"),
         );
     }
