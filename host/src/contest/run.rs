@@ -61,8 +61,8 @@ pub struct Options<'a> {
     pub wanted: &'a (dyn Fn(&MatchKey) -> bool + Sync),
     /// Called for every match as it ends, with its maze: from any thread and in any order, so that
     /// what has ended can be stored or shown before matches that come first in the plan. The
-    /// contest ends when it fails.
-    pub ended: &'a (dyn Fn(&ContestMaze, &Ended) -> io::Result<()> + Sync),
+    /// contest ends when it fails. Both are shared with the run, so keeping them copies nothing.
+    pub ended: &'a (dyn Fn(&Arc<ContestMaze>, &Arc<Ended>) -> io::Result<()> + Sync),
     /// Processor time that each robot may use, in all its variants together; `None` is
     /// [`default_robot_time`].
     pub robot_time: Option<Duration>,
@@ -186,14 +186,14 @@ struct State {
 struct Block {
     rows: Range<u64>,
     first_maze: usize,
-    mazes: Vec<OnceLock<ContestMaze>>,
+    mazes: Vec<OnceLock<Arc<ContestMaze>>>,
     slots: Mutex<Slots>,
 }
 
 /// What came of the matches of a block.
 struct Slots {
     /// By row, then by player; `None` while a match is not played.
-    matches: Vec<Option<Ended>>,
+    matches: Vec<Option<Arc<Ended>>>,
     /// Batches that have not ended.
     batches_left: usize,
 }
@@ -221,7 +221,7 @@ impl Batch {
 /// What came of a batch.
 struct PlayedBatch {
     /// By row; `None` for what is not wanted, was not played, or is put off.
-    ended: Vec<Option<Ended>>,
+    ended: Vec<Option<Arc<Ended>>>,
     put_off: Vec<Batch>,
 }
 
@@ -335,10 +335,10 @@ impl Run<'_> {
         self.plan.seeds.get(position)
     }
 
-    fn maze<'a>(&self, block: &'a Block, row: u64) -> &'a ContestMaze {
+    fn maze<'a>(&self, block: &'a Block, row: u64) -> &'a Arc<ContestMaze> {
         let index = self.maze_of(row);
         block.mazes[index - block.first_maze]
-            .get_or_init(|| self.plan.mazes[index].prepare(&self.plan.rules.game))
+            .get_or_init(|| Arc::new(self.plan.mazes[index].prepare(&self.plan.rules.game)))
     }
 
     /// Plays a batch. When everything is cancelled, what was not played is left out.
@@ -372,6 +372,7 @@ impl Run<'_> {
             done += 1;
             match self.ended(batch, spec, result) {
                 Some(ended) => {
+                    let ended = Arc::new(ended);
                     self.report(self.maze(block, first + row as u64), &ended);
                     played.ended[row - batch.rows.start] = Some(ended);
                 }
@@ -391,10 +392,10 @@ impl Run<'_> {
             && let (Some(&row), Some(spec)) = (rows.get(done), specs.get(done))
         {
             done += 1;
-            let ended = Ended::Failed(MatchFailure {
+            let ended = Arc::new(Ended::Failed(MatchFailure {
                 key: spec.key,
                 reason: "wasmouse panicked, which is a bug".to_owned(),
-            });
+            }));
             self.report(self.maze(block, first + row as u64), &ended);
             played.ended[row - batch.rows.start] = Some(ended);
         }
@@ -466,17 +467,17 @@ impl Run<'_> {
                 emitter.last_maze = Some(maze);
                 emitter.sink.maze(self.maze(block, row))?;
             }
-            match ended {
-                Ended::Played(played) => emitter.sink.played(&played)?,
-                Ended::Failed(failure) => emitter.sink.failed(&failure)?,
-                Ended::Withdrawn(failure) => emitter.sink.withdrawn(&failure)?,
+            match &*ended {
+                Ended::Played(played) => emitter.sink.played(played)?,
+                Ended::Failed(failure) => emitter.sink.failed(failure)?,
+                Ended::Withdrawn(failure) => emitter.sink.withdrawn(failure)?,
             }
         }
         Ok(())
     }
 
     /// Tells the one who asked for it that a match has ended.
-    fn report(&self, maze: &ContestMaze, ended: &Ended) {
+    fn report(&self, maze: &Arc<ContestMaze>, ended: &Arc<Ended>) {
         if let Err(error) = (self.options.ended)(maze, ended) {
             self.fail(RunError::Sink(error));
         }

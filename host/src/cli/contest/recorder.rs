@@ -4,6 +4,7 @@
 //! every other thread that ends one meanwhile would wait with it.
 
 use std::io;
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, sync_channel};
 use std::thread::{self, Scope, ScopedJoinHandle};
 use std::time::{Duration, Instant};
@@ -23,7 +24,7 @@ const PAUSE: Duration = Duration::from_millis(50);
 
 /// Takes matches from any thread.
 pub struct Recorder<'scope> {
-    queue: SyncSender<(ContestMaze, Ended)>,
+    queue: SyncSender<(Arc<ContestMaze>, Arc<Ended>)>,
     thread: ScopedJoinHandle<'scope, io::Result<()>>,
 }
 
@@ -49,9 +50,9 @@ impl<'scope> Recorder<'scope> {
     /// # Errors
     ///
     /// When the thread has ended because the store failed; [`Recorder::finish`] says why.
-    pub fn put(&self, maze: &ContestMaze, ended: &Ended) -> io::Result<()> {
+    pub fn put(&self, maze: &Arc<ContestMaze>, ended: &Arc<Ended>) -> io::Result<()> {
         self.queue
-            .send((maze.clone(), ended.clone()))
+            .send((Arc::clone(maze), Arc::clone(ended)))
             .map_err(|_| io::ErrorKind::BrokenPipe.into())
     }
 
@@ -70,13 +71,16 @@ impl<'scope> Recorder<'scope> {
 }
 
 /// Writes what is received until nobody is left to send anything.
-fn record(mut sink: StoreSink<'_>, received: &Receiver<(ContestMaze, Ended)>) -> io::Result<()> {
+fn record(
+    mut sink: StoreSink<'_>,
+    received: &Receiver<(Arc<ContestMaze>, Arc<Ended>)>,
+) -> io::Result<()> {
     let mut flushed = Instant::now();
     loop {
         match received.try_recv() {
             Ok((maze, ended)) => {
                 sink.maze(&maze)?;
-                match &ended {
+                match &*ended {
                     Ended::Played(played) => sink.played(played)?,
                     Ended::Failed(failure) => sink.failed(failure)?,
                     Ended::Withdrawn(failure) => sink.withdrawn(failure)?,
