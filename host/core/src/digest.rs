@@ -128,8 +128,14 @@ impl DigestBuilder {
     /// Adds numbers, in order.
     #[must_use]
     pub fn numbers(mut self, numbers: &[u64]) -> Self {
-        for number in numbers {
-            self.0.update(number.to_le_bytes());
+        // In pieces, because each call of the hash function costs more than eight bytes do.
+        let mut buffer = [0; 128];
+        for piece in numbers.chunks(buffer.len() / 8) {
+            let bytes = &mut buffer[..8 * piece.len()];
+            for (bytes, number) in bytes.chunks_exact_mut(8).zip(piece) {
+                bytes.copy_from_slice(&number.to_le_bytes());
+            }
+            self.0.update(bytes);
         }
         self
     }

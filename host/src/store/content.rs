@@ -177,10 +177,6 @@ fn matches(connection: &Connection, catalog: &Catalog) -> Result<Vec<Digest>, St
     let mut players = Vec::new();
     let mut player: Option<Address> = None;
     let mut records = Vec::new();
-    let same_player = |left: &Address, right: &Address| {
-        let part = |it: &Address| (it.engine, it.rules, it.robot, it.variant);
-        part(left) == part(right)
-    };
     let mut end = |at: &Address, records: &mut Vec<Digest>| -> Result<(), StoreErrorKind> {
         let key = catalog.key(at)?;
         let builder = DigestBuilder::new("wasmouse.store.player.1")
@@ -197,7 +193,7 @@ fn matches(connection: &Connection, catalog: &Catalog) -> Result<Vec<Digest>, St
         catalog,
         |at, record| -> Result<(), StoreErrorKind> {
             if let Some(last) = &player
-                && !same_player(last, at)
+                && !last.is_same_player(at)
             {
                 end(last, &mut records)?;
             }

@@ -82,6 +82,14 @@ pub(super) struct Address {
     pub seed: i64,
 }
 
+impl Address {
+    /// Whether it is a match of the same player: engine, rules, robot and variant.
+    pub fn is_same_player(&self, other: &Self) -> bool {
+        let player = |it: &Self| (it.engine, it.rules, it.robot, it.variant);
+        player(self) == player(other)
+    }
+}
+
 /// The ids of a key; `None` if the store has no match with such a part.
 pub(super) fn address(
     connection: &Connection,
@@ -135,6 +143,11 @@ impl IdCache {
         let id = robot(connection, digest)?;
         self.robots.insert(*digest, id);
         Ok(id)
+    }
+
+    /// Remembers the id of a maze that has just been added.
+    pub fn remember_maze(&mut self, digest: &Digest, id: i64) {
+        self.mazes.insert(*digest, id);
     }
 
     /// The id of a maze that has been added; `None` for another.

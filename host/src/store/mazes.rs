@@ -195,20 +195,24 @@ impl MazeRow {
 
     /// Adds the maze unless it is there. Returns its id.
     pub fn put_alone(&self, connection: &Connection) -> Result<i64, StoreErrorKind> {
-        if let Some(id) = ids::find(connection, Table::Maze, &self.digest)? {
-            let sql = "UPDATE maze SET name = ?2 WHERE id = ?1 AND name > ?2";
-            let mut statement = connection.prepare_cached(sql)?;
-            statement.execute(params![id, self.name])?;
-            return Ok(id);
-        }
-        let sql = "INSERT INTO maze(digest, name, dimension, walls) VALUES(?1, ?2, ?3, ?4)";
-        connection.prepare_cached(sql)?.execute(params![
+        let sql = "INSERT INTO maze(digest, name, dimension, walls) VALUES(?1, ?2, ?3, ?4) \
+                   ON CONFLICT DO NOTHING";
+        // Most mazes that arrive are new, so adding is tried first.
+        let added = connection.prepare_cached(sql)?.execute(params![
             self.digest.as_bytes(),
             self.name,
             self.dimension,
             self.walls,
         ])?;
-        Ok(connection.last_insert_rowid())
+        if added > 0 {
+            return Ok(connection.last_insert_rowid());
+        }
+        let id = ids::find(connection, Table::Maze, &self.digest)?;
+        let id = id.ok_or_else(|| StoreErrorKind::Unknown(format!("maze {}", self.digest)))?;
+        let sql = "UPDATE maze SET name = ?2 WHERE id = ?1 AND name > ?2";
+        let mut statement = connection.prepare_cached(sql)?;
+        statement.execute(params![id, self.name])?;
+        Ok(id)
     }
 
     /// The maze of this row of a store, and its name if that generates it.

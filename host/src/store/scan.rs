@@ -91,10 +91,20 @@ pub(super) fn each_record<E: From<StoreErrorKind>>(
     let sqlite = |error: rusqlite::Error| StoreErrorKind::from(error);
     let mut statement = connection.prepare(SELECT_ALL).map_err(sqlite)?;
     let mut rows = statement.query([]).map_err(sqlite)?;
+    let mut last: Option<(Address, MatchKey, &Ruleset)> = None;
     while let Some(row) = rows.next().map_err(sqlite)? {
         let at = columns::address_behind(row).map_err(sqlite)?;
-        let record = columns::read_record(row, catalog.key(&at)?, catalog.rules(&at)?)?;
-        visit(&at, record)?;
+        // Neighbours differ in the maze and the seed, so the rest is not looked up again.
+        let (key, rules) = match last {
+            Some((before, key, rules)) if before.is_same_player(&at) => {
+                let maze = *found(&catalog.mazes, at.maze)?;
+                let seed = at.seed.cast_unsigned();
+                (MatchKey { maze, seed, ..key }, rules)
+            }
+            _ => (catalog.key(&at)?, catalog.rules(&at)?),
+        };
+        visit(&at, columns::read_record(row, key, rules)?)?;
+        last = Some((at, key, rules));
     }
     Ok(())
 }

@@ -264,7 +264,8 @@ impl Writing<'_> {
     fn write(&mut self, batch: &Batch) -> Result<Option<StoreErrorKind>, StoreErrorKind> {
         unseal(self.transaction)?;
         for maze in &batch.mazes {
-            maze.put(self.transaction, self.rules_id)?;
+            let id = maze.put(self.transaction, self.rules_id)?;
+            self.ids.remember_maze(&maze.digest, id);
         }
         let mut records = Vec::with_capacity(batch.records.len());
         for record in &batch.records {
