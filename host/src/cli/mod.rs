@@ -6,6 +6,7 @@
 
 mod again;
 mod backtrace;
+mod bar;
 mod build;
 mod compare;
 mod complaints;

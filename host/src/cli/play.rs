@@ -2,10 +2,11 @@
 
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use wasmouse_core::record::MatchKey;
 use wasmouse_engine::Executor;
 
+use super::bar;
 use super::failure::Failure;
 use super::interrupt;
 use crate::contest::{self, Options, Plan, RunError, Sink};
@@ -33,10 +34,7 @@ pub fn play(
     sink: &mut dyn Sink,
 ) -> Result<(), Failure> {
     let cancelled = interrupt::listen()?.as_atomic();
-    let bar = ProgressBar::new(total).with_style(
-        ProgressStyle::with_template("{bar:40} {pos}/{len} matches, {per_sec}, {eta} left")
-            .expect("a constant template"),
-    );
+    let bar = ProgressBar::new(total).with_style(bar::matches(""));
     let options = Options {
         jobs: pace.jobs,
         cancelled,

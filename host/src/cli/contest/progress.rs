@@ -10,10 +10,11 @@ use std::io::{IsTerminal as _, stderr};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use wasmouse_core::Digest;
 use wasmouse_core::game::Verdict;
 
+use super::super::bar;
 use super::super::output::message;
 use crate::contest::{Ended, MatchScore, Mean, Outcome, ScoreMatrix, Scoring};
 use crate::report::escape::for_terminal;
@@ -58,9 +59,7 @@ impl Progress {
     /// The progress of a contest of which `before` has been played, with `total` matches left.
     pub fn new(before: &ScoreMatrix, scoring: &Scoring, total: u64) -> Self {
         let is_terminal = stderr().is_terminal();
-        let template = "{bar:40} {pos}/{len} matches, {per_sec}, {eta} left\n{msg}";
-        let bar = ProgressBar::new(total)
-            .with_style(ProgressStyle::with_template(template).expect("a constant template"));
+        let bar = ProgressBar::new(total).with_style(bar::matches("\n{msg}"));
         let game = &before.rules.game;
         let mut progress = Self {
             bar,
