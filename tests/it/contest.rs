@@ -201,23 +201,11 @@ fn a_shard_that_was_changed_is_refused_by_name() {
         let store = format!("part-{}.db", &part[..1]);
         succeeds(folder.path(), &["run", "--shard", part, "--store", &store]);
     }
-    let connection = rusqlite::Connection::open(folder.path().join("part-2.db")).expect("SQLite");
-    // Records never change, unless somebody takes the trouble.
-    let sql = "SELECT sql FROM sqlite_master WHERE name = 'match_is_final'";
-    let trigger: String = connection
-        .query_row(sql, [], |row| row.get(0))
-        .expect("a trigger");
-    let drop_trigger = connection.execute_batch("DROP TRIGGER match_is_final");
-    drop_trigger.expect("it is dropped");
-    let changed = connection.execute(
+    let changed = change_records(
+        &folder.path().join("part-2.db"),
         "UPDATE match SET fuel_steps = fuel_steps + 1 WHERE seed = 1",
-        [],
     );
-    assert!(changed.expect("an update") > 0);
-    connection
-        .execute_batch(&trigger)
-        .expect("it is there again");
-    drop(connection);
+    assert!(changed > 0);
     let merge = ["merge", "contest.db", "part-1.db", "part-2.db"];
     let ran = ran(&mut contest(folder.path(), &merge));
     assert_eq!(ran.status.code(), Some(1), "{}", ran.stderr);
@@ -232,6 +220,57 @@ fn a_shard_that_was_changed_is_refused_by_name() {
         part,
         "nothing of it was merged"
     );
+}
+
+/// Changes records of a store as nobody should, and returns how many.
+fn change_records(store: &Path, update: &str) -> usize {
+    let connection = rusqlite::Connection::open(store).expect("SQLite");
+    // Records never change, unless somebody takes the trouble.
+    let sql = "SELECT sql FROM sqlite_master WHERE name = 'match_is_final'";
+    let trigger: String = connection
+        .query_row(sql, [], |row| row.get(0))
+        .expect("a trigger");
+    let drop_trigger = connection.execute_batch("DROP TRIGGER match_is_final");
+    drop_trigger.expect("it is dropped");
+    let changed = connection.execute(update, []).expect("an update");
+    connection
+        .execute_batch(&trigger)
+        .expect("it is there again");
+    changed
+}
+
+/// Two machines must never get different records of a match, so the message names it.
+#[test]
+fn a_part_that_contradicts_the_contest_is_refused_with_its_matches() {
+    let folder = folder(SMALL);
+    succeeds(
+        folder.path(),
+        &["run", "--shard", "1/20", "--store", "one.db"],
+    );
+    let (one, other) = (folder.path().join("one.db"), folder.path().join("other.db"));
+    fs::copy(&one, &other).expect("a copy");
+    let changed = change_records(
+        &other,
+        "UPDATE match SET fuel_steps = fuel_steps + 1 WHERE (robot, variant, maze, seed) = \
+         (SELECT robot, variant, maze, seed FROM match WHERE seed = 1 LIMIT 1)",
+    );
+    assert_eq!(changed, 1);
+    let connection = rusqlite::Connection::open(&other).expect("SQLite");
+    let unsealed = connection.execute("DELETE FROM seal", []);
+    unsealed.expect("as before its end");
+    drop(connection);
+    succeeds(folder.path(), &["merge", "contest.db", "one.db"]);
+    let before = content(folder.path().join("contest.db"));
+    let merge = ["merge", "--unsealed", "contest.db", "other.db"];
+    let ran = ran(&mut contest(folder.path(), &merge));
+    assert_eq!(ran.status.code(), Some(1), "{}", ran.stderr);
+    for expected in [
+        "store `other.db`: 1 of its records contradict those of `contest.db`",
+        "seed 1",
+    ] {
+        assert!(ran.stderr.contains(expected), "{}", ran.stderr);
+    }
+    assert_eq!(content(folder.path().join("contest.db")), before);
 }
 
 /// How many matches a store has.
@@ -335,6 +374,47 @@ fn a_contest_that_is_interrupted_keeps_what_was_played() {
         assert_eq!(code, Some(0), "it had ended already");
     }
     succeeds(folder.path(), &["run"]);
+}
+
+/// The threads of a process that play matches.
+#[cfg(target_os = "linux")]
+fn match_threads(child: &Child) -> usize {
+    let Ok(tasks) = fs::read_dir(format!("/proc/{}/task", child.id())) else {
+        return 0;
+    };
+    let names = tasks.filter_map(|task| fs::read_to_string(task.ok()?.path().join("comm")).ok());
+    names.filter(|name| name.starts_with("matches-")).count()
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn the_contest_file_says_how_many_matches_are_played_at_once() {
+    let text = "
+version = 1
+[[robots]]
+bundled = \"flood\"
+[[mazes]]
+set = \"all\"
+paths = [\"gen:tree:16:1..=100000\"]
+[run]
+jobs = 3
+";
+    for (arguments, expected) in [(vec!["run"], 3), (vec!["run", "--jobs", "2"], 2)] {
+        let folder = folder(text);
+        let mut run = contest(folder.path(), &arguments);
+        let run = run.stdout(Stdio::null()).stderr(Stdio::null());
+        let mut child = run.spawn().expect("a process");
+        let began = Instant::now();
+        while match_threads(&child) < expected && began.elapsed() < Duration::from_secs(60) {
+            thread::sleep(Duration::from_millis(10));
+        }
+        // Long enough for one more to begin.
+        thread::sleep(Duration::from_millis(100));
+        let threads = match_threads(&child);
+        interrupt(&child);
+        assert_eq!(child.wait().expect("a process").code(), Some(130));
+        assert_eq!(threads, expected, "{arguments:?}");
+    }
 }
 
 fn interrupt(child: &Child) {

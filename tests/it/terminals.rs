@@ -181,17 +181,22 @@ impl Session {
         assert_eq!(unsafe { libc::kill(pid, signal) }, 0);
     }
 
-    /// The exit code, and the screen afterwards, after checks that the terminal was given back.
-    fn end(mut self) -> (Option<i32>, String) {
+    /// Waits until the program has ended, and returns its exit code.
+    fn exit_code(&mut self) -> Option<i32> {
         let begin = Instant::now();
-        let status = loop {
+        loop {
             if let Some(status) = self.child.try_wait().expect("a child") {
-                break status;
+                return status.code();
             }
             let waited = begin.elapsed();
             assert!(waited < Duration::from_secs(60), "{}", self.screen());
             thread::sleep(Duration::from_millis(10));
-        };
+        }
+    }
+
+    /// The exit code, and the screen afterwards, after checks that the terminal was given back.
+    fn end(mut self) -> (Option<i32>, String) {
+        let code = self.exit_code();
         assert!(self.written().contains(ENTER), "it took the terminal");
         // The last bytes may still be on their way.
         self.wait(|session| {
@@ -208,7 +213,7 @@ impl Session {
         let flags = unsafe { settings.assume_init() }.c_lflag;
         let line_by_line = libc::ICANON | libc::ECHO | libc::ISIG;
         assert_eq!(flags & line_by_line, line_by_line, "lines are edited again");
-        (status.code(), self.screen())
+        (code, self.screen())
     }
 }
 
@@ -251,6 +256,39 @@ fn window(columns: u16, rows: u16) -> libc::winsize {
 
 fn folder() -> tempfile::TempDir {
     tempfile::tempdir().expect("a temporary folder")
+}
+
+#[test]
+fn a_contest_shows_its_progress_and_standings() {
+    let folder = folder();
+    let text = "
+version = 1
+[[robots]]
+bundled = \"flood\"
+[[mazes]]
+set = \"all\"
+paths = [\"gen:tree:16:1..=100000\"]
+";
+    fs::write(folder.path().join("contest.toml"), text).expect("a file");
+    let mut session = Session::start(folder.path(), &["contest", "run"]);
+    session.wait_for("/100000 matches, ");
+    session.wait_for("now 1. flood:reset ");
+    let screen = session.screen();
+    assert!(
+        screen.contains("/s, ") && screen.contains(" left"),
+        "{screen}"
+    );
+    assert!(screen.contains("; 0 faults"), "{screen}");
+    session.press("\u{3}");
+    assert_eq!(session.exit_code(), Some(130));
+    session.wait(|session| {
+        let written = session.written();
+        written.contains("interrupted; `wasmouse contest run` goes on where this ended")
+    });
+    assert!(
+        !session.screen().contains("100000 matches, "),
+        "the bar is gone"
+    );
 }
 
 const WATCH: &[&str] = &["run", "flood", "test_maze_01", "--watch", "--no-cache"];
