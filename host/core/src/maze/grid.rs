@@ -290,7 +290,12 @@ impl Maze {
     /// If `cell` is outside the maze.
     pub fn reach(&self, cell: Cell, heading: Heading) -> u8 {
         assert!(self.walls.contains(cell), "{cell} is outside the maze");
-        self.reach[self.walls.index(cell)][heading as usize]
+        self.reach_at(self.walls.index(cell))[heading as usize]
+    }
+
+    /// [`Maze::reach`] of the cell with that [index](Walls::index), by heading.
+    pub(super) fn reach_at(&self, index: usize) -> &[u8; 4] {
+        &self.reach[index]
     }
 
     /// The bytes that identify this maze, the same for equal mazes from different files: the

@@ -134,7 +134,9 @@ fn search(maze: &Maze, sources: impl IntoIterator<Item = Cell>, metric: Metric) 
     while let Some(&from) = order.get(next) {
         next += 1;
         let distance = values[usize::from(from)] + 1;
-        for step in moves(maze, from, metric.unit_move()) {
+        // Each maze of a contest is solved, and this takes two thirds of the time of a `for` loop:
+        // the iterator runs its own loops, one inside the other.
+        moves(maze, from, metric.unit_move()).for_each(|step| {
             // Cells behind one that was reached before may still be new, so the search
             // continues to the end of the move.
             let value = &mut values[usize::from(step.to)];
@@ -142,7 +144,7 @@ fn search(maze: &Maze, sources: impl IntoIterator<Item = Cell>, metric: Metric) 
                 *value = distance;
                 order.push(step.to);
             }
-        }
+        });
     }
     Distances {
         dimension: maze.dimension(),
@@ -161,7 +163,7 @@ pub(super) struct Move {
 /// All moves of up to `longest` cells from a cell, by heading, shortest first.
 pub(super) fn moves(maze: &Maze, from: u16, longest: u8) -> impl Iterator<Item = Move> {
     let stride = i32::from(maze.dimension());
-    let cell = cell_at(maze, from);
+    let reach = *maze.reach_at(usize::from(from));
     Heading::ALL.into_iter().flat_map(move |heading| {
         let delta = match heading {
             Heading::Up => 1,
@@ -169,7 +171,7 @@ pub(super) fn moves(maze: &Maze, from: u16, longest: u8) -> impl Iterator<Item =
             Heading::Down => -1,
             Heading::Left => -stride,
         };
-        let reach = maze.reach(cell, heading).min(longest);
+        let reach = reach[heading as usize].min(longest);
         (1..=reach).map(move |cells| {
             let to = i32::from(from) + delta * i32::from(cells);
             let to = u16::try_from(to).expect("a move ends inside the maze");
