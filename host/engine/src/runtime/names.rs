@@ -141,7 +141,15 @@ const BEGINNINGS: [(Origin, &[&str]); 7] = [
     ),
     (
         Origin::Zig,
-        &["debug.", "builtin.default_panic", "start.wasm"],
+        // And what the templates give it to end a match with.
+        &[
+            "debug.",
+            "builtin.default_panic",
+            "start.wasm",
+            "interface.panic",
+            "journal.fail",
+            "journal.fatal",
+        ],
     ),
     (Origin::AssemblyScript, &["~lib/"]),
 ];
@@ -274,6 +282,7 @@ mod tests {
             ("std::terminate()", Origin::C),
             ("abort", Origin::C),
             ("debug.defaultPanic", Origin::Zig),
+            ("interface.panic__struct_0.report", Origin::Zig),
             ("~lib/builtins/abort", Origin::AssemblyScript),
         ] {
             assert_eq!(Origin::of(function), Some(origin), "{function}");
