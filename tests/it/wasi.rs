@@ -321,7 +321,7 @@ fn probe(imports: &[(&str, &str, &str)], body: &str, rest: &str) -> Vec<u8> {
 
 #[track_caller]
 fn composed(component: &[u8]) -> Vec<u8> {
-    compose(component, &Limits::default()).unwrap_or_else(|error| panic!("{error}"))
+    compose(component).unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[track_caller]
@@ -589,7 +589,7 @@ fn other_versions_of_wasi_are_answered() {
         );
     }
     for version in ["0.3.12", "1.2.12", "0.2.0-"] {
-        let error = compose(&with_version(version), &Limits::default());
+        let error = compose(&with_version(version));
         error.expect_err(version);
     }
 }
@@ -616,7 +616,7 @@ fn inner_interfaces_cannot_be_imported() {
         ));
         let message =
             format!("the component imports `{interface}`, which is not available to robots");
-        let error = compose(&component, &Limits::default()).expect_err(interface);
+        let error = compose(&component).expect_err(interface);
         assert_eq!(error.to_string(), message);
         let rejection = examine(&component, &Limits::default()).component.err();
         assert_eq!(rejection.map(|it| it.to_string()), Some(message));
@@ -643,7 +643,7 @@ fn inner_interfaces_cannot_be_imported() {
 #[test]
 fn components_that_cannot_be_composed_say_why() {
     let check = |file: &[u8], expected: &str| {
-        let error = compose(file, &Limits::default()).expect_err(expected);
+        let error = compose(file).expect_err(expected);
         assert!(error.to_string().contains(expected), "{error}");
         assert!(!error.hint().is_empty());
     };

@@ -5,14 +5,13 @@
 //! says what it answers. For modules that import preview 1, [`componentize`](super::componentize)
 //! does the like.
 
-use wasmparser::{Validator, WasmFeatures};
+use wasmparser::{BinaryReaderError, Parser, Validator, WasmFeatures};
 
 use super::binary::BinaryKind;
-use super::precheck::precheck;
+use super::outline::Outline;
 use super::rejection::Rejection;
 use super::shell::PREVIEW2;
 use super::version::{self, JOURNAL, TYPES};
-use crate::limits::Limits;
 
 /// Why a component cannot be composed.
 #[derive(Debug, thiserror::Error)]
@@ -70,39 +69,54 @@ pub fn is_wasi(import: &str) -> bool {
 ///
 /// A component gets the interfaces of WASI that are listed in `docs/WASI.md` in any version 0.2.x,
 /// and what robots may import. It gets no others, also none of those that are between the parts.
-/// The result is valid, and admission still decides about it. The same component always gives
-/// the same result.
+/// The result fits together, but nothing in it is measured, and functions are not looked at:
+/// admission decides about it. The same component always gives the same result.
 ///
 /// # Errors
 ///
 /// [`ComposeError`] says which import cannot be satisfied; [`ComposeError::hint`] says what to
 /// do.
-pub fn compose(component: &[u8], limits: &Limits) -> Result<Vec<u8>, ComposeError> {
+pub fn compose(component: &[u8]) -> Result<Vec<u8>, ComposeError> {
     if BinaryKind::of(component) != BinaryKind::Component {
         return Err(ComposeError::NotAComponent);
     }
-    let shape = precheck(component, limits)?;
-    if !shape.imports.iter().any(|import| is_wasi(import)) {
+    let outline =
+        Outline::of(component).map_err(|error| ComposeError::Rejected(Rejection::from(error)))?;
+    if !outline.imports.iter().any(|import| is_wasi(import)) {
         return Err(ComposeError::WithoutWasi);
     }
-    if let Some(found) = version::other(shape.imports.iter().chain(&shape.exports).map(|it| &**it))
-    {
+    if let Some(found) = version::other(
+        outline
+            .imports
+            .iter()
+            .chain(&outline.exports)
+            .map(|it| &**it),
+    ) {
         return Err(Rejection::OtherVersion(found.to_owned()).into());
     }
     let is_controller = |name: &&String| version::is_compatible(name, "controller");
-    let Some(controller) = shape.exports.iter().find(is_controller) else {
-        return Err(Rejection::NoController(shape.exports).into());
+    let Some(controller) = outline.exports.iter().find(is_controller) else {
+        return Err(Rejection::NoController(outline.exports).into());
     };
     let available = PREVIEW2.instances();
     let mut arguments = Vec::new();
-    for import in &shape.imports {
+    for import in &outline.imports {
         arguments.push((import.as_str(), instance_for(import, &available)?));
     }
     let composed = PREVIEW2.with_robot(component, arguments, controller);
-    match Validator::new_with_features(WasmFeatures::all()).validate_all(&composed) {
-        Ok(_) => Ok(composed),
+    match fits(&composed) {
+        Ok(()) => Ok(composed),
         Err(error) => Err(ComposeError::Mismatch(error.message().to_owned())),
     }
+}
+
+/// Validates everything but the bodies of functions, which are nearly all of a large component.
+fn fits(component: &[u8]) -> Result<(), BinaryReaderError> {
+    let mut validator = Validator::new_with_features(WasmFeatures::all());
+    for payload in Parser::new(0).parse_all(component) {
+        validator.payload(&payload?)?;
+    }
+    Ok(())
 }
 
 /// The instance that satisfies an import.
