@@ -44,6 +44,20 @@ fn c_drives_as_flood() {
     let line = project.line_of("src/robot.c", "robot_assert");
     let expected = format!("assertion failed: tracker.steps_left > 990 (src/robot.c:{line})");
     check_fault(&project, &expected);
+    // A trap has no message of the robot's, but a line.
+    project.patch(
+        "src/robot.c",
+        "robot_assert(tracker.steps_left > 990);",
+        "static volatile unsigned rest; rest = 7 % (tracker.steps_left - 990);",
+    );
+    let line = project.line_of("src/robot.c", "rest = 7 %");
+    let fault = fault_of(&project);
+    for part in [
+        "divided by zero in step 11".to_owned(),
+        format!("failed at src/robot.c:{line}:"),
+    ] {
+        assert!(fault.contains(&part), "{part}: {fault}");
+    }
 }
 
 #[test]
