@@ -139,6 +139,14 @@ fn rust_has_its_standard_library_on_preview_2() {
         &network,
         "called `wasi:sockets/tcp-create-socket#create-tcp-socket`",
     );
+    // Between the robot and the fault is what answers WASI.
+    let frames = network.split("(most recent call first):").nth(1);
+    let first = frames.and_then(|it| it.trim_start().lines().next());
+    assert_eq!(
+        first.map(|it| it.ends_with("frames of the C library")),
+        Some(true),
+        "{network}"
+    );
     // What cargo writes imports WASI, and the hint says what to do.
     let rejected = shown(&project, "cargo.wasm", 0);
     assert!(

@@ -137,6 +137,8 @@ const BEGINNINGS: [(Origin, &[&str]); 7] = [
             "dlfree",
             "wasmouse:wasi/",
             "wit_dylib_",
+            "tcp_create_socket_",
+            "udp_create_socket_",
         ],
     ),
     (
@@ -155,8 +157,17 @@ const BEGINNINGS: [(Origin, &[&str]); 7] = [
 ];
 
 /// Names of the C library that are whole.
-const C_NAMES: [&str; 8] = [
-    "abort", "exit", "_Exit", "_exit", "raise", "malloc", "free", "realloc",
+const C_NAMES: [&str; 10] = [
+    "abort",
+    "exit",
+    "exit_exit",
+    "_Exit",
+    "_exit",
+    "raise",
+    "malloc",
+    "free",
+    "realloc",
+    "socket",
 ];
 
 impl Origin {
