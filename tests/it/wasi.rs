@@ -8,6 +8,7 @@ use wasmouse_engine::admission::wasi::compose;
 use wasmouse_engine::admission::{Rejection, componentize, examine};
 use wasmouse_engine::{DetailedMatch, Executor as _, InProcess, Limits};
 use wasmouse_tests::binary::{ran, stdout_of, wasmouse};
+use wasmouse_tests::bombs;
 use wasmouse_tests::wasi::{FOLDER, functions, typed};
 
 use crate::hostile::{Module, wasm};
@@ -321,7 +322,7 @@ fn probe(imports: &[(&str, &str, &str)], body: &str, rest: &str) -> Vec<u8> {
 
 #[track_caller]
 fn composed(component: &[u8]) -> Vec<u8> {
-    compose(component).unwrap_or_else(|error| panic!("{error}"))
+    compose(component, &Limits::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[track_caller]
@@ -589,7 +590,7 @@ fn other_versions_of_wasi_are_answered() {
         );
     }
     for version in ["0.3.12", "1.2.12", "0.2.0-"] {
-        let error = compose(&with_version(version));
+        let error = compose(&with_version(version), &Limits::default());
         error.expect_err(version);
     }
 }
@@ -616,7 +617,7 @@ fn inner_interfaces_cannot_be_imported() {
         ));
         let message =
             format!("the component imports `{interface}`, which is not available to robots");
-        let error = compose(&component).expect_err(interface);
+        let error = compose(&component, &Limits::default()).expect_err(interface);
         assert_eq!(error.to_string(), message);
         let rejection = examine(&component, &Limits::default()).component.err();
         assert_eq!(rejection.map(|it| it.to_string()), Some(message));
@@ -643,7 +644,7 @@ fn inner_interfaces_cannot_be_imported() {
 #[test]
 fn components_that_cannot_be_composed_say_why() {
     let check = |file: &[u8], expected: &str| {
-        let error = compose(file).expect_err(expected);
+        let error = compose(file, &Limits::default()).expect_err(expected);
         assert!(error.to_string().contains(expected), "{error}");
         assert!(!error.hint().is_empty());
     };
@@ -674,6 +675,30 @@ fn components_that_cannot_be_composed_say_why() {
         &with("wasmouse:robot/journal@0.1.0"),
         "built for wasmouse:robot@0.1.0",
     );
+}
+
+/// What takes long to validate is rejected before it is composed.
+#[test]
+fn bombs_are_not_composed() {
+    let outer = wasm(
+        r#"(component
+            (import "wasi:random/random@0.2.0" (instance))
+            (instance $empty)
+            (export "wasmouse:robot/controller@VERSION" (instance $empty)))"#,
+    );
+    for bomb in [
+        bombs::declared_instances(1900, 18),
+        bombs::compared_instances(2000, 100, 10),
+        bombs::exported_instances(2000, 100, 10),
+        bombs::nested_component_types(60),
+        bombs::wide_record(9_000),
+    ] {
+        let mut file = outer.clone();
+        let section = wasm_encoder::RawSection { id: 4, data: &bomb };
+        wasm_encoder::ComponentSection::append_to_component(&section, &mut file);
+        let error = compose(&file, &Limits::default()).expect_err("a bomb");
+        assert!(error.to_string().contains("and the limit is"), "{error}");
+    }
 }
 
 /// From a file with WASI to a score, with the commands that messages give.

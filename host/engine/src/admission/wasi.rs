@@ -8,10 +8,11 @@
 use wasmparser::{BinaryReaderError, Parser, Validator, WasmFeatures};
 
 use super::binary::BinaryKind;
-use super::outline::Outline;
+use super::precheck::precheck;
 use super::rejection::Rejection;
 use super::shell::PREVIEW2;
 use super::version::{self, JOURNAL, TYPES};
+use crate::limits::Limits;
 
 /// Why a component cannot be composed.
 #[derive(Debug, thiserror::Error)]
@@ -69,38 +70,33 @@ pub fn is_wasi(import: &str) -> bool {
 ///
 /// A component gets the interfaces of WASI that are listed in `docs/WASI.md` in any version 0.2.x,
 /// and what robots may import. It gets no others, also none of those that are between the parts.
-/// The result fits together, but nothing in it is measured, and functions are not looked at:
-/// admission decides about it. The same component always gives the same result.
+/// The component is measured first, because types can be made so that validating them takes
+/// long. The result is valid, and admission still decides about it. The same component always gives
+/// the same result.
 ///
 /// # Errors
 ///
 /// [`ComposeError`] says which import cannot be satisfied; [`ComposeError::hint`] says what to
 /// do.
-pub fn compose(component: &[u8]) -> Result<Vec<u8>, ComposeError> {
+pub fn compose(component: &[u8], limits: &Limits) -> Result<Vec<u8>, ComposeError> {
     if BinaryKind::of(component) != BinaryKind::Component {
         return Err(ComposeError::NotAComponent);
     }
-    let outline =
-        Outline::of(component).map_err(|error| ComposeError::Rejected(Rejection::from(error)))?;
-    if !outline.imports.iter().any(|import| is_wasi(import)) {
+    let shape = precheck(component, limits)?;
+    if !shape.imports.iter().any(|import| is_wasi(import)) {
         return Err(ComposeError::WithoutWasi);
     }
-    if let Some(found) = version::other(
-        outline
-            .imports
-            .iter()
-            .chain(&outline.exports)
-            .map(|it| &**it),
-    ) {
+    if let Some(found) = version::other(shape.imports.iter().chain(&shape.exports).map(|it| &**it))
+    {
         return Err(Rejection::OtherVersion(found.to_owned()).into());
     }
     let is_controller = |name: &&String| version::is_compatible(name, "controller");
-    let Some(controller) = outline.exports.iter().find(is_controller) else {
-        return Err(Rejection::NoController(outline.exports).into());
+    let Some(controller) = shape.exports.iter().find(is_controller) else {
+        return Err(Rejection::NoController(shape.exports).into());
     };
     let available = PREVIEW2.instances();
     let mut arguments = Vec::new();
-    for import in &outline.imports {
+    for import in &shape.imports {
         arguments.push((import.as_str(), instance_for(import, &available)?));
     }
     let composed = PREVIEW2.with_robot(component, arguments, controller);
@@ -110,7 +106,8 @@ pub fn compose(component: &[u8]) -> Result<Vec<u8>, ComposeError> {
     }
 }
 
-/// Validates everything but the bodies of functions, which are nearly all of a large component.
+/// Validates everything but the bodies of functions: those of the robot are valid, and nearly all of
+/// a large component.
 fn fits(component: &[u8]) -> Result<(), BinaryReaderError> {
     let mut validator = Validator::new_with_features(WasmFeatures::all());
     for payload in Parser::new(0).parse_all(component) {

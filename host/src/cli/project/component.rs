@@ -24,7 +24,7 @@ pub fn to_component(file: &[u8], source: &Path) -> Result<Vec<u8>, Failure> {
         .hint(hint)
     };
     match BinaryKind::of(file) {
-        BinaryKind::Component => match wasi::compose(file) {
+        BinaryKind::Component => match wasi::compose(file, &Limits::default()) {
             // A robot as it is, which `componentize` says.
             Err(ComposeError::WithoutWasi) => {
                 componentize(file).map_err(|error| failure(error.to_string(), error.hint()))
