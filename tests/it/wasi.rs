@@ -8,6 +8,7 @@ use wasmouse_engine::admission::wasi::compose;
 use wasmouse_engine::admission::{Rejection, componentize, examine};
 use wasmouse_engine::{DetailedMatch, Executor as _, InProcess, Limits};
 use wasmouse_tests::binary::{ran, stdout_of, wasmouse};
+use wasmouse_tests::bombs;
 use wasmouse_tests::wasi::{FOLDER, functions, typed};
 
 use crate::hostile::{Module, wasm};
@@ -674,6 +675,30 @@ fn components_that_cannot_be_composed_say_why() {
         &with("wasmouse:robot/journal@0.1.0"),
         "built for wasmouse:robot@0.1.0",
     );
+}
+
+/// What takes long to validate is rejected before it is composed.
+#[test]
+fn bombs_are_not_composed() {
+    let outer = wasm(
+        r#"(component
+            (import "wasi:random/random@0.2.0" (instance))
+            (instance $empty)
+            (export "wasmouse:robot/controller@VERSION" (instance $empty)))"#,
+    );
+    for bomb in [
+        bombs::declared_instances(1900, 18),
+        bombs::compared_instances(2000, 100, 10),
+        bombs::exported_instances(2000, 100, 10),
+        bombs::nested_component_types(60),
+        bombs::wide_record(9_000),
+    ] {
+        let mut file = outer.clone();
+        let section = wasm_encoder::RawSection { id: 4, data: &bomb };
+        wasm_encoder::ComponentSection::append_to_component(&section, &mut file);
+        let error = compose(&file, &Limits::default()).expect_err("a bomb");
+        assert!(error.to_string().contains("and the limit is"), "{error}");
+    }
 }
 
 /// From a file with WASI to a score, with the commands that messages give.

@@ -10,6 +10,7 @@ pub mod corpus;
 pub mod fuzz;
 pub mod module;
 pub mod program;
+pub mod rust_wasi;
 pub mod slow;
 pub mod stored;
 pub mod wasi;

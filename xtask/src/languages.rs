@@ -1,9 +1,10 @@
-//! The tools of languages other than Rust, with which tests build the example robots in
+//! The tools with which tests build robots in all languages, such as the examples in
 //! `example-robots/languages`.
 //!
-//! They are packages of Python, pinned here, in a virtual environment in `target/languages`, and
+//! They are packages of Python, pinned here, in a virtual environment in `target/languages`,
 //! packages of npm, which each project pins in its own lock file: those are only downloaded, into
-//! a cache in `target/languages`. `cargo xtask languages` does it, and `cargo xtask test` calls
+//! a cache in `target/languages`, and targets of the Rust compiler, which rustup adds to it.
+//! `cargo xtask languages` does it, and `cargo xtask test` calls
 //! it. As with validators, the tests of a language whose tools cannot be had are skipped with a
 //! line on stderr ([`Kit::find`]); where [`REQUIRED_VARIABLE`] is set, they fail instead.
 
@@ -11,6 +12,7 @@ use std::env;
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
 
 use crate::packages::{self, Ecosystem, NPM_OPTIONS, npm, quiet};
 use crate::step::target_folder;
@@ -26,7 +28,8 @@ pub const STARLINGMONKEY: &str = "tests/it/languages/starlingmonkey";
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Kit {
     /// The language, as `wasmouse new --lang` takes it, or `starlingmonkey`: JavaScript with the
-    /// other engine, whose packages are in [`STARLINGMONKEY`].
+    /// other engine, whose packages are in [`STARLINGMONKEY`]. Rust with a target that has WASI is
+    /// `rust-wasip1` or `rust-wasip2`.
     pub language: &'static str,
     tools: Tools,
 }
@@ -40,6 +43,8 @@ enum Tools {
     },
     /// Packages of npm in the project's lock file.
     Npm,
+    /// A target of the Rust compiler.
+    RustTarget(&'static str),
     /// wasmouse itself.
     None,
 }
@@ -64,7 +69,7 @@ pub type Environment = Vec<(&'static str, OsString)>;
 
 impl Kit {
     /// All of them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
         Self::new("c", ZIG),
         Self::new("cpp", ZIG),
         Self::new("zig", ZIG),
@@ -75,6 +80,8 @@ impl Kit {
         Self::new("starlingmonkey", Tools::Npm),
         Self::new("python", COMPONENTIZE_PY),
         Self::new("go", GO),
+        Self::new("rust-wasip1", Tools::RustTarget("wasm32-wasip1")),
+        Self::new("rust-wasip2", Tools::RustTarget("wasm32-wasip2")),
     ];
 
     const fn new(language: &'static str, tools: Tools) -> Self {
@@ -103,6 +110,7 @@ impl Kit {
             Tools::Npm => self.lock(root).is_some_and(|lock| {
                 fs::read_to_string(self.stamp(root)).is_ok_and(|it| it == lock)
             }),
+            Tools::RustTarget(target) => has_rust_target(target),
             Tools::None => true,
         }
     }
@@ -177,6 +185,18 @@ fn folder(root: &Path) -> PathBuf {
     target_folder(root).join("languages")
 }
 
+/// Whether the compiler has the standard library of a target.
+fn has_rust_target(target: &str) -> bool {
+    let output = Command::new("rustc")
+        .args(["--print", "target-libdir", "--target", target])
+        .stderr(Stdio::null())
+        .output();
+    output.is_ok_and(|output| {
+        let folder = String::from_utf8_lossy(&output.stdout);
+        output.status.success() && Path::new(folder.trim_end()).is_dir()
+    })
+}
+
 /// The virtual environment.
 fn python(root: &Path) -> PathBuf {
     folder(root).join("python")
@@ -219,10 +239,16 @@ pub fn install(root: &Path) -> Vec<Kit> {
     }
     let is_missing = |kit: &Kit| !kit.is_installed(root);
     for kit in Kit::ALL.into_iter().filter(is_missing) {
-        if kit.tools == Tools::Npm
-            && let Err(error) = kit.download(root)
-        {
-            eprintln!("    npm: {error}");
+        let installed = match kit.tools {
+            Tools::Npm => kit.download(root).map_err(|error| format!("npm: {error}")),
+            Tools::RustTarget(target) => {
+                let added = quiet(Command::new("rustup").args(["target", "add", target]));
+                added.map_err(|error| format!("rustup: {error}"))
+            }
+            Tools::Python { .. } | Tools::None => Ok(()),
+        };
+        if let Err(error) = installed {
+            eprintln!("    {error}");
         }
     }
     let missing: Vec<Kit> = Kit::ALL.into_iter().filter(is_missing).collect();

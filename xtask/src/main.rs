@@ -76,8 +76,8 @@ enum Command {
     Dist(dist::Args),
     /// Install the validators that tests use into target/validators: packages of Python and Node.
     Validators,
-    /// Install the tools of languages other than Rust that tests use into target/languages:
-    /// packages of Python and Node.
+    /// Install the tools of languages that tests use: packages of Python and Node into
+    /// target/languages, and targets of the Rust compiler with rustup.
     Languages,
     /// Fuzz a parser of untrusted input; without a target, list the targets.
     Fuzz {

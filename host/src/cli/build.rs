@@ -8,7 +8,7 @@ use std::thread;
 use std::time::Duration;
 
 use wasmouse_engine::Limits;
-use wasmouse_engine::admission::{BinaryKind, examine};
+use wasmouse_engine::admission::{BinaryKind, Outline};
 
 use super::exit::Exit;
 use super::failure::Failure;
@@ -163,8 +163,8 @@ fn no_profile(what: &str) -> Failure {
 /// The interfaces that a component gets functions from. `types` has none, and every robot
 /// imports it, so it says nothing.
 fn imports(component: &[u8]) -> Vec<String> {
-    let shape = examine(component, &Limits::default()).shape;
-    let names = shape.map_or_else(Vec::new, |it| it.imports);
+    // Admission, before the sample matches, is what says that a component cannot be read.
+    let names = Outline::of(component).map_or_else(|_| Vec::new(), |it| it.imports);
     let has_functions = |name: &String| !name.starts_with(TYPES_INTERFACE);
     names.into_iter().filter(has_functions).collect()
 }

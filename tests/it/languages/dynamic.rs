@@ -1,19 +1,16 @@
 //! The languages that bring a runtime and need WASI: Go, Python, JavaScript, TypeScript.
 //!
-//! Most of them are slow to build and to play, so by default they play fewer mazes.
+//! Most of them are slow to build, so each is built as few times as possible.
 
 use std::fs;
 
 use super::{NAME, Project, generated_mazes, is_complete, official_mazes, project};
 
-/// Ten mazes, among them the largest.
-fn some_mazes() -> Vec<String> {
-    let mazes = [
-        "gen:tree:12:1..=3",
-        "gen:braid:16:1..=4",
-        "gen:division:20:1..=3",
-    ];
-    [official_mazes(), mazes.map(str::to_owned).into()].concat()
+/// The contest mazes, 100 generated ones, and the largest that cost most. Playing them takes less time than compiling the robot
+/// once.
+fn all_mazes() -> Vec<String> {
+    let largest = vec!["gen:division:20:1..=3".to_owned()];
+    [official_mazes(), generated_mazes(), largest].concat()
 }
 
 /// The number of the only line of a file that contains a text.
@@ -76,7 +73,7 @@ fn javascript_drives_as_flood() {
         return;
     };
     project.build();
-    project.drives_as("flood", &some_mazes());
+    project.drives_as("flood", &all_mazes());
     is_deterministic(&project);
     project.succeed("npm test");
     let unknown = "RangeError: this robot has only variant 0";
@@ -104,7 +101,7 @@ fn typescript_drives_as_flood() {
         return;
     };
     project.build();
-    project.drives_as("flood", &some_mazes());
+    project.drives_as("flood", &all_mazes());
     is_deterministic(&project);
     project.succeed("npm test");
     let unknown = "RangeError: this robot has only variant 0";
@@ -119,7 +116,7 @@ fn python_drives_as_flood() {
         return;
     };
     project.build();
-    project.drives_as("flood", &some_mazes());
+    project.drives_as("flood", &all_mazes());
     is_deterministic(&project);
     project.succeed("python3 -m unittest");
     let unknown = "ValueError: this robot has only variant 0";
@@ -136,19 +133,8 @@ fn starlingmonkey_drives_as_flood() {
         return;
     };
     project.build();
-    project.drives_as("flood", &["test_maze_01".to_owned()]);
+    project.drives_as("flood", &all_mazes());
     is_deterministic(&project);
     let unknown = "RangeError: this robot has only variant 0";
     check_panic(&project, 1, unknown, "src/robot.js", "has only variant 0");
-}
-
-#[test]
-#[ignore = "plays 100 mazes with interpreted robots, which takes minutes"]
-fn interpreted_robots_drive_as_flood_in_all_mazes() {
-    for language in ["javascript", "typescript", "python"] {
-        if let Some(project) = project(language, "interpreted_robots_drive_as_flood_in_all_mazes") {
-            project.build();
-            project.drives_as("flood", &generated_mazes());
-        }
-    }
 }

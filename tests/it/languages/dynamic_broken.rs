@@ -202,6 +202,47 @@ fn python_projects() {
     check_build(&project, error, "class `Controller`");
 }
 
+/// An error while the modules are imported has the line of the source, and not of the bundle.
+#[track_caller]
+fn fails_at_import(project: &Project, file: &str) {
+    let robot = "export function start(briefing";
+    let table = format!("export const TABLE = tableOf(4);\n\n{robot}");
+    project.patch(file, robot, &table);
+    let parameter = match file.ends_with(".ts") {
+        true => "size: number",
+        false => "size",
+    };
+    let path = project.folder().join(file);
+    let source = fs::read_to_string(&path).expect("the robot");
+    let function = format!(
+        "\nfunction tableOf({parameter}) {{\n  throw new Error(`too large: ${{size}}`);\n}}\n"
+    );
+    fs::write(&path, source.clone() + &function).expect("the robot");
+    let ran = project.wasmouse("build");
+    check(
+        &ran,
+        "`mouse` failed as its modules were imported: ",
+        "do such work in `start`",
+    );
+    let (thrown, called) = (
+        project.line_of(file, "throw new Error(`too large"),
+        project.line_of(file, "export const TABLE"),
+    );
+    for part in [
+        "Error: too large: 4".to_owned(),
+        format!("{file}:{thrown}"),
+        format!("{file}:{called}"),
+    ] {
+        assert!(ran.stderr.contains(&part), "{part}: {}", ran.stderr);
+    }
+    assert!(
+        !ran.stderr.contains("robot.js:4"),
+        "a line of the bundle: {}",
+        ran.stderr
+    );
+    fs::write(&path, source.replace(&table, robot)).expect("the robot");
+}
+
 #[test]
 fn javascript_projects() {
     let Some(project) = project("javascript", "javascript_projects") else {
@@ -221,6 +262,7 @@ fn javascript_projects() {
     let import = format!("null.nothing;\n{robot}");
     let error = "`mouse` failed as its modules were imported: Error: cannot read property";
     broken(&import, error, "do such work in `start`");
+    fails_at_import(&project, "src/robot.js");
     project.patch(
         "src/controller.js",
         "export const controller",
@@ -262,4 +304,17 @@ fn typescript_projects() {
     );
     let error = "tsc failed to check the types of `mouse`";
     check_build(&project, error, "messages of tsc are above");
+    project.patch(
+        "src/robot.ts",
+        "briefing.variant !== \"0\"",
+        "briefing.variant !== 0",
+    );
+    fails_at_import(&project, "src/robot.ts");
+}
+
+#[test]
+fn starlingmonkey_projects() {
+    if let Some(project) = project("starlingmonkey", "starlingmonkey_projects") {
+        fails_at_import(&project, "src/robot.js");
+    }
 }

@@ -9,6 +9,7 @@ mod dynamic;
 mod dynamic_broken;
 mod native;
 mod prebuilt;
+mod rust_std;
 mod vectors;
 
 use std::ffi::OsString;
@@ -42,10 +43,10 @@ pub fn project(language: &'static str, test: &str) -> Option<Project> {
         language,
     };
     let is_other_engine = language == "starlingmonkey";
-    let lang = if is_other_engine {
-        "javascript"
-    } else {
-        language
+    let lang = match language {
+        "starlingmonkey" => "javascript",
+        "rust-wasip1" | "rust-wasip2" => "rust",
+        language => language,
     };
     let mut new = wasmouse();
     new.args(["new", NAME, "--lang", lang]);
@@ -81,6 +82,8 @@ impl Project {
             .current_dir(folder)
             .envs(self.environment.iter().cloned())
             .env("WASMOUSE_CACHE", self.parent.path().join("cache"))
+            // The target folder of this repository may be in use by the cargo that runs this test.
+            .env("CARGO_TARGET_DIR", self.parent.path().join("target"))
     }
 
     /// Calls wasmouse in the project's folder; the arguments are separated by spaces.

@@ -4,6 +4,9 @@ use std::fs;
 
 use super::{Project, is_complete, prebuilt, project};
 
+/// What replaces the check of the variant in the robot in Zig: a mistake for each.
+const ZIG_MISTAKES: &str = include_str!("zig/mistakes.zig");
+
 /// The fault of a robot with a mistake, as `run` shows it.
 #[track_caller]
 fn fault_of(project: &Project) -> String {
@@ -41,6 +44,20 @@ fn c_drives_as_flood() {
     let line = project.line_of("src/robot.c", "robot_assert");
     let expected = format!("assertion failed: tracker.steps_left > 990 (src/robot.c:{line})");
     check_fault(&project, &expected);
+    // A trap has no message of the robot's, but a line.
+    project.patch(
+        "src/robot.c",
+        "robot_assert(tracker.steps_left > 990);",
+        "static volatile unsigned rest; rest = 7 % (tracker.steps_left - 990);",
+    );
+    let line = project.line_of("src/robot.c", "rest = 7 %");
+    let fault = fault_of(&project);
+    for part in [
+        "divided by zero in step 11".to_owned(),
+        format!("failed at src/robot.c:{line}:"),
+    ] {
+        assert!(fault.contains(&part), "{part}: {fault}");
+    }
 }
 
 #[test]
@@ -72,35 +89,34 @@ fn zig_drives_as_flood() {
     is_complete(&project, "flood", true);
     is_prebuilt(&project, "zig");
     project.succeed("python3 -m ziglang build test");
-    // A safety check has no line, but the function is in the backtrace.
-    project.patch(
-        "src/robot.zig",
-        "        const pose = robot.tracker.pose;",
-        "        const pose = robot.tracker.pose;\n        \
-         const table = [_]u32{ 1, 2, 3 };\n        \
-         if (table[1000 - robot.tracker.steps_left] == 0) unreachable;",
-    );
-    let fault = fault_of(&project);
-    assert!(
-        fault.contains("index out of bounds: index 3, len 3"),
-        "{fault}"
-    );
-    assert!(fault.contains("driveToGoal"), "{fault}");
-    project.patch(
-        "src/robot.zig",
-        "if (table[1000 - robot.tracker.steps_left] == 0) unreachable;",
-        "if (robot.tracker.steps_left < 997) wasmouse.fail(@src(), \"three steps are enough\");",
-    );
-    project.patch(
-        "src/robot.zig",
-        "const table = [_]u32{ 1, 2, 3 };\n        ",
-        "",
-    );
-    let line = project.line_of("src/robot.zig", "three steps are enough");
-    check_fault(
-        &project,
-        &format!("three steps are enough (robot.zig:{line}:"),
-    );
+    let check = "        if (briefing.variant != 0) wasmouse.fail(@src(), \"this robot has only the \
+                 variant 0\");\n";
+    project.patch("src/robot.zig", check, ZIG_MISTAKES);
+    project.build();
+    for (variant, message, place) in [
+        (1, "index out of bounds: index 1000, len 3", "an index"),
+        (2, "integer overflow", "an overflow"),
+        (3, "reached unreachable code", "the unreachable"),
+        (4, "attempt to use null value", "a null"),
+        (5, "integer does not fit in destination type", "a cast"),
+        (6, "I give up", "a panic"),
+        (7, "division by zero", "a division"),
+    ] {
+        let ran = project.wasmouse(&format!("run mouse.wasm:{variant} test_maze_01"));
+        let fault = ran.stdout + &ran.stderr;
+        let line = project.line_of("src/robot.zig", &format!("// {place}"));
+        for part in [
+            format!("panicked: {message} in `start`"),
+            format!("failed at src/robot.zig:{line}:"),
+        ] {
+            assert!(fault.contains(&part), "{part}: {fault}");
+        }
+    }
+    let ran = project.wasmouse("run mouse.wasm:8 test_maze_01");
+    let line = project.line_of("src/robot.zig", "only the variants 0 to 7");
+    let expected = format!("only the variants 0 to 7 (robot.zig:{line}:");
+    let fault = ran.stdout + &ran.stderr;
+    assert!(fault.contains(&expected), "{fault}");
 }
 
 #[test]

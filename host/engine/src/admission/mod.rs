@@ -12,6 +12,7 @@ mod examine;
 pub(crate) mod images;
 mod inspection;
 mod names;
+mod outline;
 mod place;
 pub mod precheck;
 mod proposal;
@@ -29,6 +30,7 @@ pub use componentize::{
 pub(crate) use examine::check_size;
 pub use examine::{Examination, examine};
 pub use inspection::{Inspection, ResourceRequirements, world};
+pub use outline::Outline;
 pub use place::{FunctionPlace, Place};
 pub use proposal::Proposal;
 pub(crate) use rejection::OUT_OF_PROCESSOR_TIME;

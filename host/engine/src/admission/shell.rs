@@ -36,11 +36,12 @@ const HEADER_BYTES: usize = 8;
 const COMPONENTS: usize = 2;
 
 /// Numbers of sections in a component.
-mod section {
-    pub(super) const COMPONENT: u8 = 4;
-    pub(super) const INSTANCE: u8 = 5;
-    pub(super) const ALIAS: u8 = 6;
-    pub(super) const IMPORT: u8 = 10;
+pub(super) mod section {
+    pub(in super::super) const COMPONENT: u8 = 4;
+    pub(in super::super) const INSTANCE: u8 = 5;
+    pub(in super::super) const ALIAS: u8 = 6;
+    pub(in super::super) const IMPORT: u8 = 10;
+    pub(in super::super) const EXPORT: u8 = 11;
 }
 
 /// A component with a place for a robot.

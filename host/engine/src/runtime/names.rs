@@ -137,18 +137,37 @@ const BEGINNINGS: [(Origin, &[&str]); 7] = [
             "dlfree",
             "wasmouse:wasi/",
             "wit_dylib_",
+            "tcp_create_socket_",
+            "udp_create_socket_",
         ],
     ),
     (
         Origin::Zig,
-        &["debug.", "builtin.default_panic", "start.wasm"],
+        // And what the templates give it to end a match with.
+        &[
+            "debug.",
+            "builtin.default_panic",
+            "start.wasm",
+            "interface.panic",
+            "journal.fail",
+            "journal.fatal",
+        ],
     ),
     (Origin::AssemblyScript, &["~lib/"]),
 ];
 
 /// Names of the C library that are whole.
-const C_NAMES: [&str; 8] = [
-    "abort", "exit", "_Exit", "_exit", "raise", "malloc", "free", "realloc",
+const C_NAMES: [&str; 10] = [
+    "abort",
+    "exit",
+    "exit_exit",
+    "_Exit",
+    "_exit",
+    "raise",
+    "malloc",
+    "free",
+    "realloc",
+    "socket",
 ];
 
 impl Origin {
@@ -274,6 +293,7 @@ mod tests {
             ("std::terminate()", Origin::C),
             ("abort", Origin::C),
             ("debug.defaultPanic", Origin::Zig),
+            ("interface.panic__struct_0.report", Origin::Zig),
             ("~lib/builtins/abort", Origin::AssemblyScript),
         ] {
             assert_eq!(Origin::of(function), Some(origin), "{function}");

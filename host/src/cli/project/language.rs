@@ -93,6 +93,7 @@ impl Project {
     /// When a tool is missing, it does not compile, or what was compiled is no robot.
     pub fn build(&self, options: &Options) -> Result<Vec<u8>, Failure> {
         let binary = (self.language.compile)(self, options)?;
-        to_component(&without_debug_information(&binary), &self.folder)
+        let binary = without_debug_information(&binary, &self.folder);
+        to_component(&binary, &self.folder)
     }
 }

@@ -11,6 +11,7 @@ mod files;
 mod find;
 mod language;
 mod languages;
+mod lines;
 mod strip;
 mod tool;
 

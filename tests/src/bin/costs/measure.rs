@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use wasmouse_tests::binary::{Ran, ran, wasmouse};
+use wasmouse_tests::rust_wasi;
 use xtask::languages::{Environment, Kit, STARLINGMONKEY};
 
 /// The maze that is played: the flood robot takes 52 steps.
@@ -85,8 +86,11 @@ pub fn built(kit: Kit, root: &Path) -> Result<Cost, String> {
         .ok_or_else(|| format!("no tools for {}", kit.language))?;
     let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
     let is_other_engine = kit.language == "starlingmonkey";
+    let rust_target = rust_wasi::target_of(kit.language);
     let lang = if is_other_engine {
         "javascript"
+    } else if rust_target.is_some() {
+        "rust"
     } else {
         kit.language
     };
@@ -99,6 +103,11 @@ pub fn built(kit: Kit, root: &Path) -> Result<Cost, String> {
             let from = root.join(STARLINGMONKEY).join(file);
             fs::copy(from, project.join(file)).map_err(|error| error.to_string())?;
         }
+    }
+    if let Some(target) = &rust_target {
+        rust_wasi::choose(target, &project)
+            .and_then(|()| fs::write(project.join("src/lib.rs"), rust_wasi::flood()))
+            .map_err(|error| error.to_string())?;
     }
     // Python's tool is on the search path already.
     if kit.language != "python" {
@@ -135,6 +144,8 @@ pub fn built(kit: Kit, root: &Path) -> Result<Cost, String> {
         "starlingmonkey" => "javascript on StarlingMonkey",
         "javascript" => "javascript on QuickJS",
         "typescript" => "typescript on QuickJS",
+        "rust-wasip1" => "rust for wasm32-wasip1",
+        "rust-wasip2" => "rust for wasm32-wasip2",
         language => language,
     };
     let mut cost = measure(

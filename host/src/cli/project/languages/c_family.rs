@@ -70,8 +70,8 @@ impl Dialect {
         command
             .arg(target.option(is_clang))
             .args(flags.iter().filter(|it| !it.starts_with(TARGET)))
-            // Names of functions stay, for backtraces and profiles; nobody reads the rest.
-            .arg("-g0")
+            // For backtraces; of the lines, those of the project's files stay.
+            .arg("-gline-tables-only")
             .args(target.linking())
             // Relative, so that the component does not depend on where the project is.
             .args(&sources)

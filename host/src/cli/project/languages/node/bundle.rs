@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::lines;
+use super::lines::Lines;
 use super::manifest::{MANIFEST, Manifest};
 use crate::cli::failure::Failure;
 use crate::cli::project::files::Temporary;
@@ -37,12 +37,37 @@ struct Output {
     exports: Vec<String>,
 }
 
-/// Bundles the robot. The file's name is part of the component, so it is always the same.
-pub fn make(project: &Project, manifest: &Manifest) -> Result<Temporary, Failure> {
+/// The name of the file, which is part of the component, so it is always the same.
+const NAME: &str = "robot.js";
+
+/// A robot in one file.
+pub struct Bundle {
+    file: Temporary,
+    /// `None` when esbuild's source map cannot be read.
+    lines: Option<Lines>,
+}
+
+impl Bundle {
+    /// The file.
+    pub const fn file(&self) -> &Temporary {
+        &self.file
+    }
+
+    /// A text about the bundle with the places of its sources.
+    pub fn in_sources(&self, text: &str) -> String {
+        match &self.lines {
+            Some(lines) => lines.in_sources(text, NAME),
+            None => text.to_owned(),
+        }
+    }
+}
+
+/// Bundles the robot.
+pub fn make(project: &Project, manifest: &Manifest) -> Result<Bundle, Failure> {
     let folder = &project.folder;
     let entry = entry(folder, manifest)?;
     let esbuild = ESBUILD.find(Some(folder))?;
-    let output = Temporary::new("robot.js")?;
+    let output = Temporary::new(NAME)?;
     let metadata = output.folder().join("metadata.json");
     let mut command = esbuild.command();
     command
@@ -64,8 +89,11 @@ pub fn make(project: &Project, manifest: &Manifest) -> Result<Temporary, Failure
             )
         })?;
     check_exports(&metadata, folder, &entry)?;
-    add_lines(&output, folder)?;
-    Ok(output)
+    let lines = add_lines(&output, folder)?;
+    Ok(Bundle {
+        file: output,
+        lines,
+    })
 }
 
 fn with_path(option: &str, path: &Path) -> std::ffi::OsString {
@@ -127,15 +155,17 @@ fn check_exports(metadata: &Path, folder: &Path, entry: &Path) -> Result<(), Fai
     .hint("a robot exports an object `controller` with the functions `start` and `nextMove`"))
 }
 
-/// Appends the table by which the robot finds the lines of its sources.
-fn add_lines(bundle: &Temporary, folder: &Path) -> Result<(), Failure> {
+/// Appends the table by which the robot finds the lines of its sources. Without it, errors have
+/// the lines of the bundle.
+fn add_lines(bundle: &Temporary, folder: &Path) -> Result<Option<Lines>, Failure> {
     let map = bundle.path().with_extension("js.map");
     let map = std::fs::read_to_string(&map).unwrap_or_default();
     let code = String::from_utf8_lossy(&bundle.read()?).into_owned();
     let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
-    match lines::table(&map, bundle.folder(), &folder) {
-        Some(table) => bundle.write(&format!("{code}globalThis.wasmouseLines = {table};\n")),
-        // Without it, errors have no lines.
-        None => Ok(()),
+    let lines = Lines::read(&map, bundle.folder(), &folder);
+    if let Some(lines) = &lines {
+        let table = lines.table();
+        bundle.write(&format!("{code}globalThis.wasmouseLines = {table};\n"))?;
     }
+    Ok(lines)
 }

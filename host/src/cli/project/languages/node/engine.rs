@@ -6,6 +6,7 @@ use std::path::Path;
 use serde::Deserialize;
 use wasmouse_engine::admission::ROBOT_WIT;
 
+use super::bundle::Bundle;
 use super::manifest::{MANIFEST, Manifest};
 use crate::cli::failure::Failure;
 use crate::cli::project::files::Temporary;
@@ -138,7 +139,8 @@ impl Engine {
     }
 
     /// Makes a component of a bundle. The robot's modules run while it is made.
-    pub fn componentize(self, project: &Project, bundle: &Temporary) -> Result<Vec<u8>, Failure> {
+    pub fn componentize(self, project: &Project, bundle: &Bundle) -> Result<Vec<u8>, Failure> {
+        let file = bundle.file();
         let output = Temporary::new("robot.wasm")?;
         let wit = Temporary::with("robot.wit", ROBOT_WIT)?;
         let (tool, command) = match self {
@@ -149,9 +151,9 @@ impl Engine {
                 command
                     .args(["--sync", "--world", "robot", "--wit"])
                     .arg(wit.path());
-                command.arg("--js").arg(bundle.path());
+                command.arg("--js").arg(file.path());
                 command.arg("--output").arg(output.path());
-                command.current_dir(bundle.folder());
+                command.current_dir(file.folder());
                 (tool, command)
             }
             Self::StarlingMonkey => {
@@ -159,7 +161,7 @@ impl Engine {
                 let mut command = tool.command();
                 command
                     .args(["--input-type=module", "--eval", STARLINGMONKEY_SCRIPT])
-                    .args([bundle.path(), wit.path(), output.path()])
+                    .args([file.path(), wit.path(), output.path()])
                     // Node looks for packages from here on.
                     .current_dir(&project.folder);
                 (tool, command)
@@ -167,10 +169,13 @@ impl Engine {
         };
         match tool.run_quietly(command)? {
             Ok(()) => output.read(),
-            Err(printed) => Err(failure(project, &printed).unwrap_or_else(|| {
-                let purpose = text!("make a component of `{}`", project.name);
-                tool.failed_with(&purpose, &printed)
-            })),
+            Err(printed) => {
+                let printed = bundle.in_sources(&printed);
+                Err(failure(project, &printed).unwrap_or_else(|| {
+                    let purpose = text!("make a component of `{}`", project.name);
+                    tool.failed_with(&purpose, &printed)
+                }))
+            }
         }
     }
 }
@@ -183,6 +188,14 @@ fn failure(project: &Project, printed: &str) -> Option<Failure> {
     ];
     let mark = MARKS.iter().find(|it| printed.contains(**it))?;
     let (_, error) = printed.split_once(mark)?;
+    // The script that runs the engine is nothing of the robot's.
+    let is_of_robot =
+        |line: &&str| !line.contains("(file://") && !line.contains("at async file://");
+    let lines = error.lines().filter(is_of_robot);
+    let lines: Vec<&str> = lines
+        .take_while(|it| !it.starts_with("Node.js v"))
+        .collect();
+    let error = lines.join("\n");
     Some(
         Failure::robot(text!(
             "`{}` failed as its modules were imported: {}",
@@ -245,6 +258,16 @@ mod tests {
             to finish JavaScript module evaluation: Error: at import\n    at <anonymous> (/bad2.js:1:40)\n";
         let found = failure(&project, printed).unwrap().to_string();
         assert!(found.contains("imported: Error: at import"), "{found}");
+        let printed = "Exception while evaluating top-level script\nsrc/robot.js:415 Error: x\n    \
+            at componentize (file:///home/bot/componentize.js:365:11)\n    at async \
+            file:///home/bot/[eval1]:5:23\n\nNode.js v20.20.2\n";
+        let found = failure(&project, printed).unwrap();
+        assert!(
+            found
+                .message()
+                .as_str()
+                .ends_with("imported: src/robot.js:415 Error: x")
+        );
         assert!(failure(&project, "no such file").is_none());
     }
 }

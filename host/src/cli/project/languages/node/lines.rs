@@ -1,7 +1,8 @@
-//! [`table`]: where the lines of a bundle come from.
+//! [`Lines`]: where the lines of a bundle come from.
 //!
 //! Engines report errors by the lines of the bundle. A source map would be decoded by the robot,
-//! at the expense of its fuel and memory, so the robot gets a small table instead.
+//! at the expense of its fuel and memory, so the robot gets a small table instead. Errors while the
+//! robot is built are translated here.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -15,18 +16,77 @@ struct SourceMap {
     mappings: String,
 }
 
-/// The table of a bundle, in JSON: `sources`, and `starts` with a line of the bundle, the number
-/// of its source, or -1, and a line of that source. Lines after it continue both. Lines are from 1.
-/// Sources below `project` are relative to it. `None` if the source map cannot be read.
-pub fn table(map: &str, bundle_folder: &Path, project: &Path) -> Option<String> {
-    let map: SourceMap = serde_json::from_str(map).ok()?;
-    let sources: Vec<String> = map
-        .sources
-        .iter()
-        .map(|source| shown(&bundle_folder.join(source), project))
-        .collect();
-    let starts = starts(&map.mappings)?;
-    Some(json!({"sources": sources, "starts": starts}).to_string())
+/// Where the lines of a bundle come from.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Lines {
+    sources: Vec<String>,
+    /// In the order of the bundle.
+    starts: Vec<Start>,
+}
+
+impl Lines {
+    /// Reads a source map. Sources below `project` are relative to it. `None` if it cannot be read.
+    pub fn read(map: &str, bundle_folder: &Path, project: &Path) -> Option<Self> {
+        let map: SourceMap = serde_json::from_str(map).ok()?;
+        let shown = |source: &String| shown(&bundle_folder.join(source), project);
+        Some(Self {
+            sources: map.sources.iter().map(shown).collect(),
+            starts: starts(&map.mappings)?,
+        })
+    }
+
+    /// The table, in JSON: `sources`, and `starts` with a line of the bundle, the number of its
+    /// source, or -1, and a line of that source. Lines after it continue both. Lines are from 1.
+    pub fn table(&self) -> String {
+        json!({"sources": self.sources, "starts": self.starts}).to_string()
+    }
+
+    /// Replaces places in the bundle, such as `/robot.js:415:23`, by the file and the line of the
+    /// source. The columns of a bundle are its own.
+    pub fn in_sources(&self, text: &str, bundle_name: &str) -> String {
+        let mark = format!("{bundle_name}:");
+        let mut parts = text.split(&mark);
+        let mut replaced = parts.next().unwrap_or_default().to_owned();
+        for part in parts {
+            let (line, rest) = number(part);
+            let place = line.and_then(|line| self.source_of(line));
+            match place {
+                Some(place) => {
+                    // Engines see the bundle in the root folder.
+                    if replaced.ends_with('/') {
+                        replaced.pop();
+                    }
+                    let column = rest.strip_prefix(':').map(number);
+                    let rest = match column {
+                        Some((Some(_), rest)) => rest,
+                        _ => rest,
+                    };
+                    replaced.push_str(&place);
+                    replaced.push_str(rest);
+                }
+                None => {
+                    replaced.push_str(&mark);
+                    replaced.push_str(part);
+                }
+            }
+        }
+        replaced
+    }
+
+    /// File and line of the source of a line of the bundle.
+    fn source_of(&self, bundle_line: i64) -> Option<String> {
+        let after = self.starts.partition_point(|it| it.0 <= bundle_line);
+        let &(start, source, line) = self.starts.get(after.checked_sub(1)?)?;
+        let source = self.sources.get(usize::try_from(source).ok()?)?;
+        Some(format!("{source}:{}", line + bundle_line - start))
+    }
+}
+
+/// The number that a text begins with, and what follows.
+fn number(text: &str) -> (Option<i64>, &str) {
+    let end = text.find(|c: char| !c.is_ascii_digit());
+    let (digits, rest) = text.split_at(end.unwrap_or(text.len()));
+    (digits.parse().ok(), rest)
 }
 
 fn shown(path: &Path, project: &Path) -> String {
@@ -110,16 +170,35 @@ mod tests {
         // Lines 2 and 3 are lines 1 and 2 of the first source, 4 is from nowhere, 5 is line 1 of
         // the second source.
         let map = r#"{"sources": ["../home/bot/src/a.js", "/lib/b.js"], "mappings": ";AAAA;AACA,CAAC;;ACDA"}"#;
-        let table = table(map, Path::new("/tmp"), Path::new("/home/bot")).unwrap();
+        let lines = Lines::read(map, Path::new("/tmp"), Path::new("/home/bot")).unwrap();
         let expected =
             r#"{"sources":["src/a.js","/lib/b.js"],"starts":[[1,-1,0],[2,0,1],[4,-1,0],[5,1,1]]}"#;
-        assert_eq!(table, expected);
+        assert_eq!(lines.table(), expected);
+        for (printed, expected) in [
+            ("at table (/robot.js:3:27)", "at table (src/a.js:2)"),
+            ("robot.js:2:1 Error: x", "src/a.js:1 Error: x"),
+            ("@robot.js:6", "@/lib/b.js:2"),
+            // From nowhere, or no place.
+            ("robot.js:4:1, robot.js:1:1", "robot.js:4:1, robot.js:1:1"),
+            (
+                "robot.js: robot.js:x robot.js:",
+                "robot.js: robot.js:x robot.js:",
+            ),
+            ("robot.js:2:", "src/a.js:1:"),
+            (
+                "robot.js:99999999999999999999",
+                "robot.js:99999999999999999999",
+            ),
+            ("nothing", "nothing"),
+        ] {
+            assert_eq!(lines.in_sources(printed, "robot.js"), expected);
+        }
     }
 
     #[test]
     fn what_is_no_map_gives_no_table() {
-        assert_eq!(table("", Path::new("/"), Path::new("/")), None);
+        assert_eq!(Lines::read("", Path::new("/"), Path::new("/")), None);
         let map = r#"{"sources": [], "mappings": "?"}"#;
-        assert_eq!(table(map, Path::new("/"), Path::new("/")), None);
+        assert_eq!(Lines::read(map, Path::new("/"), Path::new("/")), None);
     }
 }

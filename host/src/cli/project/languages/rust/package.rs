@@ -9,7 +9,9 @@ use std::process::{Command, Stdio};
 
 use serde::Deserialize;
 
-use super::toolchain::{Toolchain, WASM_TARGET};
+use super::cargo_home::cargo_home;
+use super::target::{MANIFEST, Target};
+use super::toolchain::Toolchain;
 use crate::cli::failure::Failure;
 use crate::cli::project::language::{Language, Project};
 use crate::cli::project::tool::{Program, Tool, Version};
@@ -26,7 +28,7 @@ pub static LANGUAGE: Language = Language {
         let profile = options.profile.as_deref().unwrap_or(DEFAULT_PROFILE);
         Crate::of(project).compile(profile)
     },
-    sources: &["src", MANIFEST, "build.rs", "vendor"],
+    sources: &["src", MANIFEST, "build.rs", "vendor", ".cargo"],
     tools: &[&CARGO],
     check: Some(Toolchain::check),
     setup: &[],
@@ -41,9 +43,6 @@ static CARGO: Tool = Tool {
     tested: Version(1, 95, 0),
     install: "curl --proto '=https' --tlsv1.2 -sSf https://sh.rustup.rs | sh",
 };
-
-/// The file that makes a folder a cargo project.
-const MANIFEST: &str = "Cargo.toml";
 
 /// The cargo profile that projects are built with unless the user chooses another.
 pub const DEFAULT_PROFILE: &str = "release";
@@ -64,6 +63,13 @@ struct Manifest {
 #[derive(Deserialize)]
 struct Package {
     name: String,
+    metadata: Option<Metadata>,
+}
+
+#[derive(Deserialize)]
+struct Metadata {
+    /// What cargo-component reads.
+    component: Option<toml::Value>,
 }
 
 /// A message of `cargo build --message-format=json`.
@@ -73,11 +79,12 @@ struct Message {
     manifest_path: Option<PathBuf>,
     #[serde(default)]
     filenames: Vec<PathBuf>,
-    target: Option<Target>,
+    target: Option<CargoTarget>,
 }
 
+/// What cargo calls a target: a library or a program of a package.
 #[derive(Deserialize)]
-struct Target {
+struct CargoTarget {
     crate_types: Vec<String>,
 }
 
@@ -107,11 +114,31 @@ fn open(folder: &Path, language: &'static Language) -> Result<Project, Failure> 
         ))
         .hint("give the folder of one robot in it"));
     };
+    if package.metadata.is_some_and(|it| it.component.is_some()) {
+        return Err(of_cargo_component(folder, &package.name));
+    }
     Ok(Project {
         folder: folder.to_owned(),
         name: package.name,
         language,
     })
+}
+
+/// cargo-component generates the bindings that such a project needs, and only it does.
+fn of_cargo_component(folder: &Path, name: &str) -> Failure {
+    let file = format!(
+        "target/{}/release/{}.wasm",
+        Target::Preview1.name(),
+        name.replace('-', "_")
+    );
+    Failure::input(text!(
+        "`{}` is a project of cargo-component",
+        Text::of_path(folder)
+    ))
+    .hint(text!(
+        "run `cargo component build --release` there, then `wasmouse build {}`",
+        Text::of_path(folder.join(file))
+    ))
 }
 
 impl<'a> Crate<'a> {
@@ -127,11 +154,12 @@ impl<'a> Crate<'a> {
 
     /// Runs cargo; its diagnostics go to stderr as they come.
     fn compile(&self, profile: &str) -> Result<Vec<u8>, Failure> {
-        let toolchain = Toolchain::find(self.folder)?;
+        let target = Target::of(self.folder)?;
+        let toolchain = Toolchain::find(self.folder, target)?;
         let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
         let mut command = Command::new(cargo);
         command
-            .args(["build", "--target", WASM_TARGET, "--profile", profile])
+            .args(["build", "--target", target.name(), "--profile", profile])
             .arg("--message-format=json-render-diagnostics")
             .arg("--manifest-path")
             .arg(&self.manifest)
@@ -141,7 +169,7 @@ impl<'a> Crate<'a> {
             .current_dir(self.folder)
             .stdin(Stdio::null())
             .stdout(Stdio::piped());
-        add_rustflags(&mut command, &self.path_names());
+        add_rustflags(&mut command, target, &self.path_names());
         let mut child = command.spawn().map_err(|error| {
             Failure::input(format_args!("failed to run cargo: {error}"))
                 .hint("install Rust: https://rustup.rs")
@@ -221,7 +249,7 @@ impl<'a> Crate<'a> {
 
 /// Adds compiler flags to those that the user has set. Cargo takes flags from
 /// one place only, and the environment wins over configuration files.
-fn add_rustflags(command: &mut Command, flags: &[String]) {
+fn add_rustflags(command: &mut Command, target: Target, flags: &[String]) {
     if let Some(encoded) = std::env::var_os("CARGO_ENCODED_RUSTFLAGS") {
         let flags = flags.join("\x1f");
         command.env("CARGO_ENCODED_RUSTFLAGS", join(encoded, "\x1f", &flags));
@@ -231,7 +259,7 @@ fn add_rustflags(command: &mut Command, flags: &[String]) {
         let flags = toml::Value::from(flags.to_vec());
         command
             .arg("--config")
-            .arg(format!("target.{WASM_TARGET}.rustflags={flags}"));
+            .arg(format!("target.{}.rustflags={flags}", target.name()));
     }
 }
 
@@ -241,13 +269,6 @@ fn join(mut left: OsString, separator: &str, right: &str) -> OsString {
     }
     left.push(right);
     left
-}
-
-/// Where cargo keeps the sources of dependencies.
-fn cargo_home() -> Option<PathBuf> {
-    std::env::var_os("CARGO_HOME")
-        .map(PathBuf::from)
-        .or_else(|| Some(std::env::home_dir()?.join(".cargo")))
 }
 
 #[cfg(test)]
@@ -309,6 +330,8 @@ mod tests {
         check_rejected(None, "failed to read");
         check_rejected(Some("[package\n"), "failed to parse");
         check_rejected(Some("[workspace]\n"), "is a workspace without a package");
+        let component = "[package]\nname = \"my-bot\"\n[package.metadata.component]\n";
+        check_rejected(Some(component), "release/my_bot.wasm");
     }
 
     #[test]

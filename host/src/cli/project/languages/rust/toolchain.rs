@@ -1,4 +1,4 @@
-//! Finds a compiler for `wasm32-unknown-unknown`: rustup's, or a packaged one.
+//! Finds a compiler for the target of a robot: rustup's, or a packaged one.
 //!
 //! [`Probe::run`] looks at the machine, [`plan`] decides (a pure function, so
 //! that every kind of machine is a test), and [`Toolchain::find`] carries the
@@ -9,20 +9,30 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use super::target::Target;
 use crate::cli::failure::Failure;
 use crate::cli::output::message;
-use crate::report::text::Text;
+use crate::report::text::{Text, text};
 
-/// The target of robots: it has no WASI, so nothing of it can be imported.
-pub const WASM_TARGET: &str = "wasm32-unknown-unknown";
+/// How to get a target.
+fn install_hint(target: Target) -> Text {
+    let rustup = text!(
+        "with rustup:             rustup target add {}",
+        target.name()
+    );
+    match target {
+        Target::Freestanding => text!(
+            "{}\n\
+             on Debian or Ubuntu:     apt-get install --no-install-recommends rustc-web \
+             rust-web-src lld-22\n                         \
+             (wasmouse then finds it automatically)",
+            rustup
+        ),
+        Target::Preview1 | Target::Preview2 => rustup,
+    }
+}
 
-/// Both ways to get the target.
-const INSTALL_HINT: &str = "\
-with rustup:             rustup target add wasm32-unknown-unknown
-on Debian or Ubuntu:     apt-get install --no-install-recommends rustc-web rust-web-src lld-22
-                         (wasmouse then finds it automatically)";
-
-/// A compiler outside rustup that can build for [`WASM_TARGET`].
+/// A compiler outside rustup that can build for [`Target::Freestanding`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Packaged {
     rustc: PathBuf,
@@ -72,7 +82,7 @@ fn plan(probe: &Probe, rustup_was_asked: bool) -> Plan {
     }
 }
 
-/// How to run cargo so that it compiles for [`WASM_TARGET`].
+/// How to run cargo so that it compiles for a target.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub struct Toolchain {
     /// Arguments for `cargo build`.
@@ -88,19 +98,19 @@ impl Toolchain {
     ///
     /// # Errors
     ///
-    /// Fails with both ways to install the target when there is none.
-    pub fn find(folder: &Path) -> Result<Self, Failure> {
-        let probe = Probe::run(folder);
+    /// Fails with the ways to install the target when there is none.
+    pub fn find(folder: &Path, target: Target) -> Result<Self, Failure> {
+        let probe = Probe::run(folder, target);
         match plan(&probe, false) {
             Plan::AskRustup => {
-                let probe = if add_target(folder) {
-                    Probe::run(folder)
+                let probe = if add_target(folder, target) {
+                    Probe::run(folder, target)
                 } else {
                     probe
                 };
-                Self::from_plan(plan(&probe, true))
+                Self::from_plan(plan(&probe, true), target)
             }
-            plan => Self::from_plan(plan),
+            plan => Self::from_plan(plan, target),
         }
     }
 
@@ -110,13 +120,14 @@ impl Toolchain {
     ///
     /// As [`Toolchain::find`].
     pub fn check(folder: &Path) -> Result<(), Failure> {
-        match plan(&Probe::run(folder), false) {
+        let target = Target::of(folder)?;
+        match plan(&Probe::run(folder, target), false) {
             Plan::AsIs | Plan::AskRustup | Plan::UsePackaged(_) => Ok(()),
-            plan @ Plan::GiveUp => Self::from_plan(plan).map(|_| ()),
+            plan @ Plan::GiveUp => Self::from_plan(plan, target).map(|_| ()),
         }
     }
 
-    fn from_plan(plan: Plan) -> Result<Self, Failure> {
+    fn from_plan(plan: Plan, target: Target) -> Result<Self, Failure> {
         match plan {
             Plan::AsIs => Ok(Self::default()),
             Plan::UsePackaged(packaged) => {
@@ -128,9 +139,10 @@ impl Toolchain {
                 Ok(Self::from_packaged(&packaged))
             }
             Plan::AskRustup | Plan::GiveUp => Err(Failure::input(format_args!(
-                "no Rust compiler for {WASM_TARGET} on this machine"
+                "no Rust compiler for {} on this machine",
+                target.name()
             ))
-            .hint(INSTALL_HINT)),
+            .hint(install_hint(target))),
         }
     }
 
@@ -158,13 +170,15 @@ impl Toolchain {
 }
 
 impl Probe {
-    fn run(folder: &Path) -> Self {
+    fn run(folder: &Path, target: Target) -> Self {
         let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-        let library = sysroot(&rustc, folder).map(|sysroot| target_library(&sysroot));
+        let library = sysroot(&rustc, folder).map(|sysroot| target_library(&sysroot, target));
+        // A packaged compiler brings neither the C library of WASI nor its linker.
+        let packaged = || Packaged::probe(folder, &[Path::new("/usr/bin"), Path::new("/bin")]);
         Self {
             has_target: library.is_some_and(|library| library.is_dir()),
             has_rustup: quiet("rustup", folder).arg("--version").status().is_ok(),
-            packaged: Packaged::probe(folder, &[Path::new("/usr/bin"), Path::new("/bin")]),
+            packaged: (target == Target::Freestanding).then(packaged).flatten(),
         }
     }
 }
@@ -176,7 +190,7 @@ impl Packaged {
             .map(|bin| bin.join("rustc"))
             .find(|rustc| rustc.is_file())?;
         let sysroot = sysroot(rustc.as_os_str(), folder)?;
-        let build_std = !target_library(&sysroot).is_dir();
+        let build_std = !target_library(&sysroot, Target::Freestanding).is_dir();
         let library_source = sysroot.join("lib/rustlib/src/rust/library/std/Cargo.toml");
         if build_std && !library_source.is_file() {
             return None;
@@ -191,8 +205,8 @@ impl Packaged {
 }
 
 /// Where a compiler with this sysroot keeps the target's standard library.
-fn target_library(sysroot: &Path) -> PathBuf {
-    sysroot.join("lib/rustlib").join(WASM_TARGET).join("lib")
+fn target_library(sysroot: &Path, target: Target) -> PathBuf {
+    sysroot.join("lib/rustlib").join(target.name()).join("lib")
 }
 
 /// Where a compiler looks for standard libraries; `None` if it cannot be run.
@@ -224,11 +238,11 @@ fn newest_wasm_ld(bin: &Path) -> Option<PathBuf> {
 }
 
 /// Asks rustup for the target; says on stderr what happens.
-fn add_target(folder: &Path) -> bool {
-    message!("adding the target {} with rustup", WASM_TARGET);
+fn add_target(folder: &Path, target: Target) -> bool {
+    message!("adding the target {} with rustup", target.name());
     // rustup's stdout is talk, and ours is data.
     let status: io::Result<_> = quiet("rustup", folder)
-        .args(["target", "add", WASM_TARGET])
+        .args(["target", "add", target.name()])
         .stderr(Stdio::inherit())
         .status();
     let added = status.is_ok_and(|status| status.success());
@@ -293,10 +307,16 @@ mod tests {
     }
 
     #[test]
-    fn giving_up_tells_both_ways() {
-        let failure = Toolchain::from_plan(Plan::GiveUp).unwrap_err().to_string();
-        assert!(failure.contains("rustup target add wasm32-unknown-unknown"));
-        assert!(failure.contains("apt-get install --no-install-recommends rustc-web"));
+    fn giving_up_tells_the_ways() {
+        for target in Target::ALL {
+            let failure = Toolchain::from_plan(Plan::GiveUp, target).unwrap_err();
+            let failure = failure.to_string();
+            let rustup = format!("rustup target add {}", target.name());
+            assert!(failure.contains(&rustup), "{failure}");
+            let debian = "apt-get install --no-install-recommends rustc-web";
+            let is_packaged = target == Target::Freestanding;
+            assert_eq!(failure.contains(debian), is_packaged, "{failure}");
+        }
     }
 
     #[test]
