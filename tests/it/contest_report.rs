@@ -146,7 +146,7 @@ impl Contest {
             run: Run::Exploration,
             step: 65,
             cell: Cell::new(0, 3),
-            detail: "panicked: <i>no map</i>".to_owned(),
+            detail: "panicked: <i>no map</i>".into(),
         };
         MatchRecord {
             version: RecordVersion,

@@ -231,7 +231,7 @@ fn every_fault_is_valid() {
                     run,
                     step: u32::MAX,
                     cell: Cell::new(0, 255),
-                    detail: String::new(),
+                    detail: "".into(),
                 };
                 record.verdict = Verdict::Fault { fault };
                 results.matches.push(record.clone());

@@ -23,7 +23,7 @@ fn verdicts() -> [Verdict; 4] {
         run: Run::Exploration,
         step: 5,
         cell: Cell::new(0, 3),
-        detail: format!("panicked: {HOSTILE}"),
+        detail: format!("panicked: {HOSTILE}").into(),
     };
     [
         Verdict::Finished {

@@ -251,7 +251,7 @@ fn record_digest(record: &MatchRecord) -> Digest {
             fault.cell.y.into(),
         ])
         .bytes(phase.as_bytes())
-        .bytes(fault.detail.as_bytes())
+        .bytes(fault.detail.raw().as_bytes())
         .finish()
 }
 

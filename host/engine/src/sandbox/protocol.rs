@@ -12,6 +12,7 @@ use std::time::Duration;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use wasmouse_core::Digest;
+use wasmouse_core::GuestText;
 use wasmouse_core::game::{FaultKind, Ruleset};
 use wasmouse_core::journal::{Belief, Color, Level, Note};
 use wasmouse_core::maze::{Cell, Heading};
@@ -154,9 +155,9 @@ pub(super) struct Details {
 /// An entry of the journal that owns its text.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) enum OwnedNote {
-    Log(Level, String),
+    Log(Level, GuestText),
     Paint(Cell, Color),
-    Label(Cell, String),
+    Label(Cell, GuestText),
     Wall(Cell, Heading, Belief),
 }
 
@@ -166,13 +167,16 @@ impl OwnedNote {
         match self {
             Self::Log(level, text) => Note::Log {
                 level: *level,
-                text,
+                text: text.as_guest(),
             },
             Self::Paint(cell, color) => Note::Paint {
                 cell: *cell,
                 color: *color,
             },
-            Self::Label(cell, text) => Note::Label { cell: *cell, text },
+            Self::Label(cell, text) => Note::Label {
+                cell: *cell,
+                text: text.as_guest(),
+            },
             Self::Wall(cell, side, belief) => Note::Wall {
                 cell: *cell,
                 side: *side,
@@ -185,9 +189,9 @@ impl OwnedNote {
 impl From<Note<'_>> for OwnedNote {
     fn from(note: Note<'_>) -> Self {
         match note {
-            Note::Log { level, text } => Self::Log(level, text.to_owned()),
+            Note::Log { level, text } => Self::Log(level, text.into()),
             Note::Paint { cell, color } => Self::Paint(cell, color),
-            Note::Label { cell, text } => Self::Label(cell, text.to_owned()),
+            Note::Label { cell, text } => Self::Label(cell, text.into()),
             Note::Wall { cell, side, belief } => Self::Wall(cell, side, belief),
         }
     }

@@ -174,7 +174,7 @@ impl Sample {
                     run: Run::Exploration,
                     step: 6,
                     cell: Cell::new(0, 3),
-                    detail: format!("exceeded the fuel limit: {untrusted}"),
+                    detail: format!("exceeded the fuel limit: {untrusted}").into(),
                 },
             },
             steps: Steps {

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use wasmouse_core::guest_text;
+
 use super::document::ContestReport;
 use super::view::{Part, View, state};
 use super::words;
@@ -40,17 +42,13 @@ pub fn table(report: &ContestReport<'_>, layout: Layout) -> String {
     }
     for unranked in view.unranked() {
         let why = words::unranked(&unranked);
-        line(&for_terminal(&format!(
-            "`{}`: {why}",
-            view.name(unranked.robot)
-        )));
+        let name = view.name(unranked.robot);
+        line(&for_terminal(&guest_text!("`{}`: {}", name, why)));
     }
     for fault in view.faults() {
         let what = words::fault(&fault);
-        line(&for_terminal(&format!(
-            "fault: `{}`: {what}",
-            view.name(fault.robot)
-        )));
+        let name = view.name(fault.robot);
+        line(&for_terminal(&guest_text!("fault: `{}`: {}", name, what)));
     }
     for sentence in words::left_out(&view) {
         line(&for_terminal(&sentence));

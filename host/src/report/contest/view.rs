@@ -4,8 +4,8 @@
 
 use std::collections::{HashMap, HashSet};
 
-use wasmouse_core::Digest;
 use wasmouse_core::game::Verdict;
+use wasmouse_core::{Digest, GuestText};
 
 use super::super::faults::explained;
 use super::document::{Compared, ContestReport, PartRanking};
@@ -13,7 +13,7 @@ use crate::contest::{
     Complaint, MatrixMaze, MatrixRobot, NotAdmitted, Ranking, RankingLine, RobotState, ScoreMatrix,
 };
 
-/// What a report shows. Texts are as they are: formats escape them.
+/// What a report shows. Formats escape the texts.
 #[derive(Debug)]
 pub(super) struct View<'a> {
     pub(super) report: &'a ContestReport<'a>,
@@ -69,7 +69,7 @@ pub(super) struct FirstFault {
     pub(super) maze: String,
     pub(super) seed: u64,
     /// The message with its place, if that may be shown.
-    pub(super) detail: Option<String>,
+    pub(super) detail: Option<GuestText>,
 }
 
 impl<'a> View<'a> {

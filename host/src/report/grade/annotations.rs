@@ -5,6 +5,8 @@
 
 use std::fmt::Write as _;
 
+use wasmouse_core::guest_text::GuestStr;
+
 use super::super::escape;
 use super::sentence::{Report, points, sentence, verdict};
 use crate::contest::grade::Status;
@@ -34,13 +36,13 @@ pub fn annotations(report: &Report<'_>) -> String {
     text
 }
 
-fn line(text: &mut String, level: &str, title: &str, message: &str) {
+fn line<'a>(text: &mut String, level: &str, title: &str, message: impl Into<GuestStr<'a>>) {
     let (title, message) = (property(title), data(message));
     writeln!(text, "::{level} title={title}::{message}").expect("writing to a string cannot fail");
 }
 
 /// The message of a command. Line breaks and control characters have been escaped.
-fn data(text: &str) -> String {
+fn data<'a>(text: impl Into<GuestStr<'a>>) -> String {
     old_form(&escape::for_terminal(text).replace('%', "%25"))
 }
 

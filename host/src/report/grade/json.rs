@@ -1,6 +1,7 @@
 //! [`json`]: grades as a JSON document, which `host/schema/grade.schema.json` describes.
 
 use serde::Serialize;
+use wasmouse_core::GuestText;
 
 use super::super::json;
 use super::sentence::{Report, sentence};
@@ -49,7 +50,7 @@ struct RobotEntry<'a> {
     digest: Option<String>,
     variant: u32,
     participation: &'static str,
-    reason: Option<&'a str>,
+    reason: Option<&'a GuestText>,
     hint: Option<&'a str>,
     complete: bool,
     passed: bool,
@@ -74,7 +75,7 @@ struct ResultEntry<'a> {
     points_thousandths: u64,
     value_thousandths: Option<i64>,
     matches: u64,
-    message: String,
+    message: GuestText,
 }
 
 #[derive(Serialize)]
@@ -83,7 +84,7 @@ struct FaultEntry<'a> {
     matches: u64,
     maze: &'a str,
     seed: u64,
-    message: &'a str,
+    message: &'a GuestText,
 }
 
 /// The document.
