@@ -131,7 +131,7 @@ fn play(seeds: Seeds) -> (Results, Vec<u8>) {
             entrant("champion", component("champion")),
             entrant("rejected\u{1b}", b"no robot"),
             Entrant {
-                admission: Err(NotAdmitted::Failed("no worker \u{1b}".to_owned())),
+                admission: Err(NotAdmitted::Failed("no worker \u{1b}".into())),
                 ..entrant("failed", b"perhaps a robot")
             },
         ],

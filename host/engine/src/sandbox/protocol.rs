@@ -282,7 +282,7 @@ pub(super) struct Backtrace {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct RejectionText {
     pub(super) name: String,
-    pub(super) reason: String,
+    pub(super) reason: GuestText,
     pub(super) hint: String,
 }
 
@@ -290,7 +290,7 @@ impl From<Rejection> for RejectionText {
     fn from(rejection: Rejection) -> Self {
         Self {
             name: rejection.name().to_owned(),
-            reason: rejection.to_string(),
+            reason: rejection.reason(),
             hint: rejection.hint().to_owned(),
         }
     }

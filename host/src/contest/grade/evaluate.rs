@@ -69,7 +69,7 @@ pub fn grade(graded: &Graded<'_>, submission: &Submission) -> Grade {
         (_, entry) => entry.map(|it| it.name.clone()).unwrap_or_default(),
     };
     Grade {
-        robot: name,
+        robot: name.into(),
         digest: entry.map(|it| it.digest),
         variant: entry.map_or(0, |it| it.variant),
         is_passed: rubric.mark.is_reached(points_thousandths, points_max)
@@ -97,12 +97,12 @@ impl Graded<'_> {
         match &entry.not_admitted {
             Some(NotAdmitted::Rejected(rejection)) => Participation::Rejected {
                 kind: rejection.name().to_owned(),
-                reason: rejection.to_string().into(),
+                reason: rejection.reason(),
                 hint: rejection.hint().to_owned(),
             },
-            Some(NotAdmitted::Failed(reason)) => Participation::HostFailed(reason.as_str().into()),
+            Some(NotAdmitted::Failed(reason)) => Participation::HostFailed(reason.clone()),
             None => match self.unplayed.of(entry.digest, entry.variant).withdrawn {
-                Some(reason) => Participation::Withdrawn(reason.into()),
+                Some(reason) => Participation::Withdrawn(reason),
                 None => Participation::Admitted,
             },
         }
@@ -131,7 +131,7 @@ impl Graded<'_> {
         let name_of = |digest| {
             let mut mazes = self.matrix.mazes.iter();
             let maze = mazes.find(|it| it.digest == digest);
-            maze.map_or("?", |it| it.name.as_str()).to_owned()
+            GuestText::from(maze.map_or("?", |it| it.name.as_str()))
         };
         let faults = robot.faults.iter().filter_map(|(kind, fault)| {
             let message = fault.first.verdict.fault()?.describe();

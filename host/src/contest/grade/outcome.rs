@@ -6,7 +6,7 @@ use wasmouse_core::{Digest, GuestText};
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Grade {
     /// What reports call the robot.
-    pub robot: String,
+    pub robot: GuestText,
     /// The digest of its file; `None` when there was no file to read.
     pub digest: Option<Digest>,
     /// The number that chose its mode.
@@ -70,7 +70,7 @@ pub struct FaultLine {
     /// How many matches ended so.
     pub count: u64,
     /// The maze of the first of them.
-    pub maze: String,
+    pub maze: GuestText,
     /// The seed of the first of them.
     pub seed: u64,
     /// What happened in it. May quote text of the robot.

@@ -44,7 +44,7 @@ impl Played {
     fn new() -> Self {
         let robot = |name: &str| MatrixRobot::new(name.to_owned(), Digest::of(name.as_bytes()), 0);
         let mut robots = ["good", "bad", "lost", "late"].map(robot).to_vec();
-        robots[2].not_admitted = Some(NotAdmitted::Failed("no worker".to_owned()));
+        robots[2].not_admitted = Some(NotAdmitted::Failed("no worker".into()));
         let seeds = Seeds { first: 0, count: 1 };
         let mut matrix = ScoreMatrix::new(Ruleset::default(), seeds, robots);
         let mazes: Vec<String> = (0..10).map(|it| format!("maze-{it}")).collect();
@@ -168,7 +168,7 @@ fn whatever_happened_each_criterion_has_a_reason() {
     };
     let failure = super::super::sink::MatchFailure {
         key,
-        reason: "too slow".to_owned(),
+        reason: "too slow".into(),
     };
     use super::super::sink::Sink as _;
     played.unplayed.failed(&failure).expect("it keeps it");

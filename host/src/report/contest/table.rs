@@ -38,7 +38,7 @@ pub fn table(report: &ContestReport<'_>, layout: Layout) -> String {
     ));
     for compared in view.comparisons() {
         let what = words::comparison(&view, compared);
-        line(&for_terminal(&format!("compared: {what}")));
+        line(&for_terminal(&guest_text!("compared: {}", what)));
     }
     for unranked in view.unranked() {
         let why = words::unranked(&unranked);
@@ -71,8 +71,8 @@ fn ranking(view: &View<'_>, part: &Part<'_>, layout: Layout) -> String {
     for line in &part.lines {
         let name = view.name(line.robot);
         let name = match state(view.robot(line.robot), line.state) {
-            Some(state) => format!("{name} ({state})"),
-            None => name.to_owned(),
+            Some(state) => guest_text!("{} ({})", name, state),
+            None => name.into(),
         };
         table.add_row([
             words::rank(line),

@@ -187,12 +187,14 @@ pub(super) fn fault(line: &FaultLine<'_>) -> GuestText {
 }
 
 /// What came of a comparison, as a sentence.
-pub(super) fn comparison(view: &View<'_>, compared: &Compared) -> String {
+pub(super) fn comparison(view: &View<'_>, compared: &Compared) -> GuestText {
     let it = &compared.comparison;
     let (first, second) = (view.name(compared.first), view.name(compared.second));
     if it.wins + it.losses == 0 {
-        return format!(
-            "{first} and {second} scored equally in every maze ({})",
+        return guest_text!(
+            "{} and {} scored equally in every maze ({})",
+            first,
+            second,
             count(it.mazes, "maze")
         );
     }
@@ -208,35 +210,41 @@ pub(super) fn comparison(view: &View<'_>, compared: &Compared) -> String {
     };
     let (head, interval) = match (it.verdict, difference) {
         (PairedVerdict::Better, Some(difference)) => (
-            format!(
-                "{first} is better than {second} by {} steps",
+            guest_text!(
+                "{} is better than {} by {} steps",
+                first,
+                second,
                 thousandths(-difference)
             ),
             interval.map(|[low, high]| interval_of([-high, -low])),
         ),
         (PairedVerdict::Worse, Some(difference)) => (
-            format!(
-                "{first} is worse than {second} by {} steps",
+            guest_text!(
+                "{} is worse than {} by {} steps",
+                first,
+                second,
                 thousandths(difference)
             ),
             interval.map(interval_of),
         ),
         _ => (
-            format!(
-                "{first} and {second}: undecided, mean difference {}",
+            guest_text!(
+                "{} and {}: undecided, mean difference {}",
+                first,
+                second,
                 mean(it.difference)
             ),
             interval.map(interval_of),
         ),
     };
     let (wins, ties, losses) = (it.wins, it.ties, it.losses);
-    let mut text = format!("{head}{}", interval.unwrap_or_default());
-    text.push_str(&format!(
+    let mut text = guest_text!("{}{}", head, interval.unwrap_or_default());
+    text.push(&format!(
         ", in {}: {wins} better, {ties} equal, {losses} worse",
         count(it.mazes, "maze")
     ));
     if let (PairedVerdict::Undecided, Some(mazes)) = (it.verdict, it.mazes_to_decide) {
-        text.push_str(&format!("; about {mazes} mazes would decide"));
+        text.push(&format!("; about {mazes} mazes would decide"));
     }
     text
 }

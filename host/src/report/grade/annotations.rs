@@ -6,6 +6,7 @@
 use std::fmt::Write as _;
 
 use wasmouse_core::guest_text::GuestStr;
+use wasmouse_core::{GuestText, guest_text};
 
 use super::super::escape;
 use super::sentence::{Report, points, sentence, verdict};
@@ -22,7 +23,7 @@ pub fn annotations(report: &Report<'_>) -> String {
                 Status::Failed => "error",
                 Status::Partial | Status::Skipped => "warning",
             };
-            let title = format!("{}: {}", grade.robot, criterion.name);
+            let title = guest_text!("{}: {}", grade.robot, criterion.name);
             line(&mut text, level, &title, &sentence(criterion, result));
         }
         let earned = points(grade.points_thousandths);
@@ -36,7 +37,7 @@ pub fn annotations(report: &Report<'_>) -> String {
     text
 }
 
-fn line<'a>(text: &mut String, level: &str, title: &str, message: impl Into<GuestStr<'a>>) {
+fn line<'a>(text: &mut String, level: &str, title: &GuestText, message: impl Into<GuestStr<'a>>) {
     let (title, message) = (property(title), data(message));
     writeln!(text, "::{level} title={title}::{message}").expect("writing to a string cannot fail");
 }
@@ -47,7 +48,7 @@ fn data<'a>(text: impl Into<GuestStr<'a>>) -> String {
 }
 
 /// The value of a property of a command.
-fn property(text: &str) -> String {
+fn property(text: &GuestText) -> String {
     data(text).replace(':', "%3A").replace(',', "%2C")
 }
 

@@ -46,7 +46,7 @@ struct CriterionEntry<'a> {
 
 #[derive(Serialize)]
 struct RobotEntry<'a> {
-    robot: &'a str,
+    robot: &'a GuestText,
     digest: Option<String>,
     variant: u32,
     participation: &'static str,
@@ -82,7 +82,7 @@ struct ResultEntry<'a> {
 struct FaultEntry<'a> {
     kind: &'static str,
     matches: u64,
-    maze: &'a str,
+    maze: &'a GuestText,
     seed: u64,
     message: &'a GuestText,
 }

@@ -66,7 +66,7 @@ impl Sample {
                 reason: reason.map(GuestText::from),
             };
         let grade = |robot: &str, participation, criteria: Vec<CriterionGrade>| Grade {
-            robot: robot.to_owned(),
+            robot: robot.into(),
             digest: Some(Digest::of(robot.as_bytes())),
             variant: 0,
             points_thousandths: criteria.iter().map(|it| it.points_thousandths).sum(),
@@ -83,7 +83,7 @@ impl Sample {
             faults: vec![FaultLine {
                 kind: "panic",
                 count: 1,
-                maze: HOSTILE.to_owned(),
+                maze: HOSTILE.into(),
                 seed: 7,
                 message: HOSTILE.into(),
             }],
