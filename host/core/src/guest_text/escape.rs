@@ -15,21 +15,27 @@ pub struct Escaped<'a>(pub(super) &'a str);
 
 impl fmt::Display for Escaped<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if f.width().is_some() || f.precision().is_some() {
-            return f.pad(&self.to_string());
+        if f.width().is_none() && f.precision().is_none() {
+            return escape(self.0, f);
         }
-        let mut rest = self.0;
-        while let Some((at, character)) = rest.char_indices().find(|(_, it)| misleads(*it)) {
-            f.write_str(&rest[..at])?;
-            if character.is_control() {
-                write!(f, "{}", character.escape_debug())?;
-            } else {
-                write!(f, "{}", character.escape_unicode())?;
-            }
-            rest = &rest[at + character.len_utf8()..];
-        }
-        f.write_str(rest)
+        let mut escaped = String::with_capacity(self.0.len());
+        escape(self.0, &mut escaped)?;
+        f.pad(&escaped)
     }
+}
+
+fn escape(text: &str, to: &mut impl fmt::Write) -> fmt::Result {
+    let mut rest = text;
+    while let Some((at, character)) = rest.char_indices().find(|(_, it)| misleads(*it)) {
+        to.write_str(&rest[..at])?;
+        if character.is_control() {
+            write!(to, "{}", character.escape_debug())?;
+        } else {
+            write!(to, "{}", character.escape_unicode())?;
+        }
+        rest = &rest[at + character.len_utf8()..];
+    }
+    to.write_str(rest)
 }
 
 /// Whether a character could control a terminal or mislead a reader: control characters, line
@@ -71,4 +77,18 @@ const fn is_invisible(character: char) -> bool {
             | '\u{1d173}'..='\u{1d17a}'
             | '\u{e0000}'..='\u{e0fff}'
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::GuestText;
+
+    #[test]
+    fn widths_count_what_is_shown() {
+        let text = GuestText::from("a\t");
+        assert_eq!(
+            format!("<{:<5}|{:.2}>", text.escaped(), text.escaped()),
+            "<a\\t  |a\\>"
+        );
+    }
 }
