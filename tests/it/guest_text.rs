@@ -133,13 +133,11 @@ fn walk(tokens: TokenStream, code: &mut Code) {
     while let Some(token) = tokens.get(at) {
         at += 1;
         match token {
-            TokenTree::Punct(sign) if sign.as_char() == '#' => {
-                if is_test(tokens.get(at)) {
-                    let length = item_length(&tokens[at..]);
-                    let item = &tokens[at..at + length];
-                    code.test_modules.extend(module_elsewhere(item));
-                    at += length;
-                }
+            TokenTree::Punct(sign) if sign.as_char() == '#' && is_test(tokens.get(at)) => {
+                let length = item_length(&tokens[at..]);
+                let item = &tokens[at..at + length];
+                code.test_modules.extend(module_elsewhere(item));
+                at += length;
             }
             // A method, or the path of one.
             TokenTree::Punct(sign) if matches!(sign.as_char(), '.' | ':') => {

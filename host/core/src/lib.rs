@@ -4,7 +4,7 @@
 //!
 //! - [`maze`]: cells and walls, file formats, contest rules for mazes, solver, generators;
 //! - [`game`]: rules, simulation, trace, score, verdict;
-//! - [`guest_text`]: text from outside, which cannot be printed without escaping it;
+//! - [`mod@guest_text`]: text from outside, which cannot be printed without escaping it;
 //! - [`journal`]: log lines, colours and labels of a robot;
 //! - [`record`]: the identity of a match ([`MatchKey`](record::MatchKey)), its outcome
 //!   ([`MatchRecord`](record::MatchRecord)) and the robot's actions
