@@ -183,7 +183,7 @@ fn a_robot_made_from_the_page_gets_what_it_says() {
     assert_eq!(entries.len(), expected.len() + 1);
     for (entry, (table, name)) in entries.iter().zip(&expected) {
         let found = match (entry.note, *table) {
-            (NoteOf::Log { level, text: "hi" }, "level") => format!("{level:?}"),
+            (NoteOf::Log { level, text }, "level") if text == "hi" => format!("{level:?}"),
             (NoteOf::Paint { color, .. }, "color") => format!("{color:?}"),
             (NoteOf::Wall { side, .. }, "heading") => format!("{side:?}"),
             (NoteOf::Wall { belief, .. }, "belief") => format!("{belief:?}"),

@@ -125,10 +125,10 @@ impl Contest {
         flood.author = Some("Ann".to_owned());
         bold.class = Some("large".to_owned());
         bold.faults.insert("panic", MatrixFault { count: 1, first });
-        looper.unplayed = BTreeMap::from([("it stalled twice".to_owned(), 12)]);
+        looper.unplayed = BTreeMap::from([("it stalled twice".into(), 12)]);
         let rejection = Rejection::UnknownImport("wasi:cli/environment@0.2.0".to_owned());
         rejected.not_admitted = Some(NotAdmitted::Rejected(Arc::new(rejection)));
-        unlucky.not_admitted = Some(NotAdmitted::Failed("no worker process".to_owned()));
+        unlucky.not_admitted = Some(NotAdmitted::Failed("no worker process".into()));
     }
 
     fn record(&self, robot: usize, maze: usize) -> MatchRecord {
@@ -146,7 +146,7 @@ impl Contest {
             run: Run::Exploration,
             step: 65,
             cell: Cell::new(0, 3),
-            detail: "panicked: <i>no map</i>".to_owned(),
+            detail: "panicked: <i>no map</i>".into(),
         };
         MatchRecord {
             version: RecordVersion,

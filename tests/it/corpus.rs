@@ -81,12 +81,12 @@ fn problems(engine: &Engine, case: &Case) -> Vec<String> {
 /// The rejection of a file, the same when it is inspected.
 fn rejection(engine: &Engine, file: &[u8]) -> Option<Value> {
     let inspection = engine.executor.inspect(file).expect("the host works");
-    let inspected = inspection.rejection.map(|it| it.to_string());
+    let inspected = inspection.rejection.map(|it| it.reason());
     let rejection = engine.admit(file).err();
-    let reason = rejection.as_ref().map(ToString::to_string);
+    let reason = rejection.as_ref().map(|it| it.reason());
     assert_eq!(inspected, reason);
     let rejection = rejection?;
-    assert!(!rejection.hint().is_empty(), "{rejection}");
+    assert!(!rejection.hint().is_empty(), "{rejection:?}");
     Some(json!({"rejection": {"kind": rejection.name(), "reason": reason}}))
 }
 

@@ -351,6 +351,7 @@ fn a_robot_that_cannot_be_admitted_costs_nobody_else_anything() {
     let message = "error: `flood-file` could not be admitted: failed to store compiled code: ";
     assert!(stderr.contains(message), "{stderr}");
     let (failure, played) = records(&nowhere, "flood-file");
+    let failure = failure.as_guest();
     assert!(failure.starts_with("failed to store compiled code: "));
     assert_eq!(played, []);
     assert_eq!(

@@ -48,6 +48,8 @@ mod fingerprints;
 mod formats;
 /// `wasmouse grade`: rubrics, robots of every kind, and all formats.
 mod grade;
+/// Text from outside: which code may take it out of its type.
+mod guest_text;
 /// Robots in WebAssembly text, and a good robot that plays after them.
 mod hostile;
 /// Ctrl-C during a contest.

@@ -57,7 +57,13 @@ fn small_match(label: &str) -> Playback {
     let mut journal = Journal::default();
     journal.clear(100_000);
     let cell = Cell::new(3, 0);
-    journal.push(1, Note::Label { cell, text: label });
+    journal.push(
+        1,
+        Note::Label {
+            cell,
+            text: label.into(),
+        },
+    );
     let color = Color::Violet;
     journal.push(2, Note::Paint { cell, color });
     Playback::new(maze, rules, trace, result.verdict, journal)
@@ -141,8 +147,8 @@ fn snapshot(name: &str, svg: &str) {
 fn scenes_sequences_and_posters() {
     let playback = small_match("a&b");
     let shot = Shot {
-        robot: "flood",
-        maze: "small",
+        robot: "flood".into(),
+        maze: "small".into(),
         playback: &playback,
     };
     snapshot(
@@ -185,8 +191,8 @@ fn hostile_text_is_text() {
     let documents = |text: &str| {
         let playback = small_match(text);
         let shot = Shot {
-            robot: text,
-            maze: text,
+            robot: text.into(),
+            maze: text.into(),
             playback: &playback,
         };
         let all = overlays(&ALL);
@@ -223,8 +229,8 @@ fn hostile_text_is_text() {
 fn pixels_have_the_colours_of_the_theme() {
     let playback = small_match("");
     let shot = Shot {
-        robot: "flood",
-        maze: "small",
+        robot: "flood".into(),
+        maze: "small".into(),
         playback: &playback,
     };
     for (theme, ground, wall) in [
@@ -257,8 +263,8 @@ fn pixels_have_the_colours_of_the_theme() {
 fn numbers_are_drawn_with_the_bundled_font() {
     let playback = small_match("");
     let shot = Shot {
-        robot: "r",
-        maze: "m",
+        robot: "r".into(),
+        maze: "m".into(),
         playback: &playback,
     };
     let count = |names: &[Overlay]| {
@@ -280,8 +286,8 @@ fn numbers_are_drawn_with_the_bundled_font() {
 fn animated_files_end_with_the_still_picture() {
     let playback = small_match("");
     let shots = ["a", "b"].map(|robot| Shot {
-        robot,
-        maze: "small",
+        robot: robot.into(),
+        maze: "small".into(),
         playback: &playback,
     });
     let shown = overlays(&[Overlay::Path, Overlay::Knowledge]);

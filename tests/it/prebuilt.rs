@@ -97,7 +97,7 @@ fn a_panic_says_what_and_where() {
         let found = (fault.kind, fault.phase, fault.step);
         assert_eq!(found, (FaultKind::Panic, Phase::Start, 0), "{}", robot.name);
         let source = format!("(example-robots/{}/src/lib.rs:", robot.name);
-        let detail = &fault.detail;
+        let detail = fault.detail.raw();
         assert!(detail.starts_with("panicked: "), "{detail}");
         assert!(detail.contains("variant"), "{detail}");
         assert!(

@@ -131,7 +131,7 @@ fn play(seeds: Seeds) -> (Results, Vec<u8>) {
             entrant("champion", component("champion")),
             entrant("rejected\u{1b}", b"no robot"),
             Entrant {
-                admission: Err(NotAdmitted::Failed("no worker \u{1b}".to_owned())),
+                admission: Err(NotAdmitted::Failed("no worker \u{1b}".into())),
                 ..entrant("failed", b"perhaps a robot")
             },
         ],
@@ -231,7 +231,7 @@ fn every_fault_is_valid() {
                     run,
                     step: u32::MAX,
                     cell: Cell::new(0, 255),
-                    detail: String::new(),
+                    detail: "".into(),
                 };
                 record.verdict = Verdict::Fault { fault };
                 results.matches.push(record.clone());

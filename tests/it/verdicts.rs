@@ -14,7 +14,10 @@ fn check(robot: Module<'_>, expected: &str) {
     let engine = Engine::new(SMALL);
     let verdict = engine.play(&robot.component()).record.verdict;
     let found = match verdict {
-        Verdict::Fault { fault } => format!("{}: {fault}", fault.kind.name()),
+        Verdict::Fault { fault } => {
+            let (kind, text) = (fault.kind.name(), fault.describe());
+            format!("{kind}: {}", text.raw())
+        }
         other => other.title().into_owned(),
     };
     assert_eq!(found, expected);
@@ -184,7 +187,8 @@ fn a_long_panic_is_cut_between_characters_and_costs_fuel() {
     let journal = |limits: &mut SandboxLimits, max| limits.journal_bytes_max = max;
     let (kind, detail, short_fuel) = played(&panicking(2001), journal, 0);
     assert_eq!((kind, detail.len()), ("panic", "panicked: ".len() + 1999));
-    assert!(detail.starts_with("panicked: aé") && detail.ends_with('é'));
+    let text = detail.raw();
+    assert!(text.starts_with("panicked: aé") && text.ends_with('é'));
     let (_, long_detail, long_fuel) = played(&panicking(2901), journal, 0);
     assert_eq!(long_detail, detail);
     assert_eq!(long_fuel - short_fuel, 900);

@@ -61,13 +61,13 @@ fn shown(played: &DetailedMatch) -> String {
             } else {
                 "info"
             };
-            Some(format!("{} {level}: {text}\n", entry.step))
+            Some(format!("{} {level}: {}\n", entry.step, text.raw()))
         }
         _ => None,
     });
     let mut shown: String = lines.collect();
     if let Some(fault) = played.record.verdict.fault() {
-        shown.push_str(&fault.to_string());
+        shown.push_str(fault.describe().raw());
     }
     shown
 }

@@ -135,7 +135,7 @@ fn a_crash_that_repeats_alone_is_the_robots_fault() {
         let verdict = outcome.expect("a verdict").verdict;
         let fault = verdict.fault().expect("a fault");
         assert_eq!(fault.kind.name(), "crash");
-        assert!(fault.to_string().contains("SIGABRT"), "{fault}");
+        assert!(fault.detail.raw().contains("SIGABRT"), "{fault:?}");
     }
 }
 

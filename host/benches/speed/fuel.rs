@@ -476,7 +476,7 @@ fn time(component: &[u8], step_fuel: u64, name: &str) -> Duration {
     assert_eq!(
         fault.kind,
         FaultKind::OutOfFuel(FuelLimit::Step),
-        "{name}: {fault}"
+        "{name}: {fault:?}"
     );
     took
 }

@@ -5,6 +5,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use wasmouse::cli::player::{Player, Show};
 use wasmouse_core::game::{Action, GameRules};
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::journal::{Color, Journal, Level, Note};
 use wasmouse_core::maze::{Cell, Maze, Turn};
 use wasmouse_core::playback::Playback;
@@ -50,7 +51,7 @@ fn wandering(maze: &Maze) -> Playback {
         let place = |number: u32| u8::try_from(number % 16).expect("below 16");
         let cell = Cell::new(place(step), place(step / 16));
         let label = step.to_string();
-        let (text, color, level) = (label.as_str(), Color::Green, Level::Info);
+        let (text, color, level) = (GuestStr::from(&label), Color::Green, Level::Info);
         journal.push(step, Note::Label { cell, text });
         journal.push(step, Note::Paint { cell, color });
         journal.push(step, Note::Log { level, text });

@@ -180,7 +180,8 @@ pub fn record(bytes: &[u8]) -> bool {
         assert!(!score.to_string().is_empty());
     }
     if let Some(fault) = record.verdict.fault() {
-        assert!(fault.to_string().contains(&fault.detail));
+        let described = fault.describe();
+        assert!(described.raw().contains(fault.detail.raw()));
     }
     true
 }
@@ -349,7 +350,7 @@ mod tests {
         let (maze, rules) = game(0b0111);
         let mut transcript = Transcript::default();
         transcript.push(Action::Reset);
-        transcript.end_with_fault(FaultKind::Panic, Phase::NextMove, "panicked".into());
+        transcript.end_with_fault(FaultKind::Panic, Phase::NextMove, "panicked");
         let result = replay(maze, &rules, &transcript).expect("a possible match");
         let fault = result.verdict.fault().expect("a fault");
         assert_eq!(fault.run, Run::Exploration);

@@ -1,11 +1,12 @@
 //! [`Journal`]: the log lines, colours, labels and wall beliefs of a robot.
 //!
-//! The text is untrusted: escape it before displaying it.
+//! The text is the robot's, so it is a [`GuestStr`].
 
 use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
+use crate::guest_text::GuestStr;
 use crate::maze::{Cell, Heading};
 
 /// The importance of a log line, as in the WIT.
@@ -50,14 +51,14 @@ pub enum Belief {
     Closed,
 }
 
-/// The content of an entry. `Text` is `&str`, except inside a journal.
+/// The content of an entry. `Text` is [`GuestStr`], except inside a journal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoteOf<Text> {
     /// A line of text.
     Log {
         /// The importance of the line.
         level: Level,
-        /// The text, unescaped.
+        /// The text.
         text: Text,
     },
     /// A painted cell.
@@ -71,7 +72,7 @@ pub enum NoteOf<Text> {
     Label {
         /// The cell.
         cell: Cell,
-        /// The text, unescaped; empty removes the label.
+        /// The text; empty removes the label.
         text: Text,
     },
     /// A belief about a wall.
@@ -86,7 +87,7 @@ pub enum NoteOf<Text> {
 }
 
 /// The content of an entry, with its text borrowed from the journal or the robot.
-pub type Note<'a> = NoteOf<&'a str>;
+pub type Note<'a> = NoteOf<GuestStr<'a>>;
 
 impl<Text> NoteOf<Text> {
     fn map_text<To>(self, map: impl FnOnce(Text) -> To) -> NoteOf<To> {
@@ -132,8 +133,8 @@ pub struct JournalCounts {
 /// use wasmouse_core::journal::{Journal, JournalCounts, Level, Note};
 /// let mut journal = Journal::default();
 /// journal.clear(40);
-/// journal.push(1, Note::Log { level: Level::Info, text: "dead end" });
-/// journal.push(2, Note::Log { level: Level::Info, text: "too long for the rest" });
+/// journal.push(1, Note::Log { level: Level::Info, text: "dead end".into() });
+/// journal.push(2, Note::Log { level: Level::Info, text: "too long for the rest".into() });
 /// assert_eq!(journal.counts(), JournalCounts { entries: 1, dropped: 1 });
 /// assert_eq!(journal.entries().next().map(|entry| entry.step), Some(1));
 /// ```
@@ -165,7 +166,7 @@ impl Journal {
     pub fn entries(&self) -> impl Iterator<Item = Entry<'_>> {
         self.entries.iter().map(|(step, note)| Entry {
             step: *step,
-            note: note.clone().map_text(|range| &self.text[range]),
+            note: note.clone().map_text(|range| self.text[range].into()),
         })
     }
 
@@ -206,7 +207,7 @@ impl Journal {
         self.bytes = bytes;
         let note = note.map_text(|text| {
             let start = self.text.len();
-            self.text.push_str(text);
+            self.text.push_str(text.raw());
             start..self.text.len()
         });
         self.entries.push((step, note));
@@ -221,9 +222,9 @@ mod tests {
     fn entries_beyond_the_limit_are_dropped() {
         let mut journal = Journal::default();
         journal.clear(40);
-        let log = |text| Note::Log {
+        let log = |text: &'static str| Note::Log {
             level: Level::Info,
-            text,
+            text: text.into(),
         };
         journal.push(1, log("four"));
         journal.push(2, log("this line is too long for the rest"));

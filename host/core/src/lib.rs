@@ -4,6 +4,7 @@
 //!
 //! - [`maze`]: cells and walls, file formats, contest rules for mazes, solver, generators;
 //! - [`game`]: rules, simulation, trace, score, verdict;
+//! - [`mod@guest_text`]: text from outside, which cannot be printed without escaping it;
 //! - [`journal`]: log lines, colours and labels of a robot;
 //! - [`record`]: the identity of a match ([`MatchKey`](record::MatchKey)), its outcome
 //!   ([`MatchRecord`](record::MatchRecord)) and the robot's actions
@@ -51,6 +52,7 @@ mod fuzz;
 #[cfg(fuzzing)]
 pub mod fuzz;
 pub mod game;
+pub mod guest_text;
 pub mod journal;
 pub mod knowledge;
 pub mod maze;
@@ -59,3 +61,4 @@ pub mod record;
 pub mod replay;
 
 pub use digest::{Digest, DigestBuilder, ParseDigestError};
+pub use guest_text::GuestText;

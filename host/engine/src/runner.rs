@@ -5,6 +5,7 @@
 
 use std::sync::Arc;
 
+use wasmouse_core::GuestText;
 use wasmouse_core::game::{FaultKind, FuelLimit, Phase, SandboxLimits, Simulation};
 use wasmouse_core::journal::Journal;
 use wasmouse_core::record::{FuelUse, GameResult, MatchSpec, Transcript, Usage};
@@ -145,11 +146,11 @@ struct Runner<'a> {
 struct Stop {
     kind: FaultKind,
     phase: Phase,
-    detail: String,
+    detail: GuestText,
 }
 
 /// What came of a call: a value, or the robot's failure with its reason.
-type Called<T> = Result<T, (FaultKind, String)>;
+type Called<T> = Result<T, (FaultKind, GuestText)>;
 
 impl<'a> Runner<'a> {
     fn new(mut store: Store<Guest>, spec: &'a MatchSpec, recording: &'a mut Recording) -> Self {

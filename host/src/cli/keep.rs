@@ -5,6 +5,8 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use wasmouse_core::GuestText;
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::journal::Journal;
 use wasmouse_core::replay::{NAME_CHARS_MAX, Replay, ReplayParts};
 use wasmouse_engine::Executor;
@@ -170,8 +172,9 @@ fn replay(
     .map_err(|error| Failure::internal(text!("the replay of `{}`: {}", robot, error)))
 }
 
-fn shortened(name: &str) -> String {
-    name.chars().take(NAME_CHARS_MAX).collect()
+fn shortened(name: &str) -> GuestText {
+    let (short, _) = GuestStr::from(name).cut(NAME_CHARS_MAX);
+    short.into()
 }
 
 /// What the robot writes when it plays again; empty if that is not possible.
@@ -200,12 +203,13 @@ fn journal(kept: &BestMatch, plan: &Plan, players: &[Player], executor: &dyn Exe
 /// A name for the file that no other one has, of letters, digits and `-_.` alone.
 fn file_name(replay: &Replay, taken: &mut BTreeSet<String>) -> String {
     let parts = replay.parts();
-    let safe = |name: &str| -> String {
+    let safe = |name: &GuestText| -> String {
         let safe = |it: char| match it {
             'a'..='z' | 'A'..='Z' | '0'..='9' | '-' | '_' => it,
             _ => '-',
         };
-        name.chars().take(FILE_NAME_CHARS_MAX).map(safe).collect()
+        let start = name.raw().chars().take(FILE_NAME_CHARS_MAX);
+        start.map(safe).collect()
     };
     let (robot, maze) = (safe(&parts.robot), safe(&parts.maze_name));
     let stem = format!("{robot}.{maze}.{}", parts.record.key.seed);

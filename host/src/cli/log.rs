@@ -48,13 +48,13 @@ pub fn print(plan: &Plan, players: &[Player], executor: &dyn Executor, results: 
         for entry in journal.entries() {
             if let Note::Log { level, text } = entry.note {
                 let level = level_name(level);
-                message!("{:>6} {:<7} {}", entry.step, level, text);
+                message!("{:>6} {:<7} {}", entry.step, level, text.escaped());
             }
         }
         if let Some(fault) = record.verdict.fault() {
             let complaint = Complaint::of(journal, fault);
             let explained = explained(fault, Some(&complaint));
-            message!("{:>6} {:<7} {}", fault.step, "fault", explained);
+            message!("{:>6} {:<7} {}", fault.step, "fault", explained.escaped());
         }
         let dropped = record.journal.dropped;
         if dropped > 0 {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use indicatif::{ProgressBar, ProgressStyle};
+use wasmouse_core::GuestText;
 use wasmouse_core::playback::Playback;
 use wasmouse_core::replay::Replay;
 
@@ -183,8 +184,8 @@ enum PictureTheme {
 
 /// A match with its names.
 struct Loaded {
-    robot: String,
-    maze: String,
+    robot: GuestText,
+    maze: GuestText,
     playback: Playback,
 }
 
@@ -332,8 +333,8 @@ impl Loaded {
 
     fn shot(&self) -> Shot<'_> {
         Shot {
-            robot: &self.robot,
-            maze: &self.maze,
+            robot: self.robot.as_guest(),
+            maze: self.maze.as_guest(),
             playback: &self.playback,
         }
     }
@@ -403,8 +404,8 @@ fn together(shots: &[Shot<'_>]) -> Result<usize, Failure> {
     {
         let message = text!(
             "matches side by side are of one maze, found `{}` and `{}`",
-            first.maze,
-            other.maze
+            first.maze.escaped(),
+            other.maze.escaped()
         );
         return Err(Failure::usage(message).hint(CHOOSE));
     }

@@ -116,13 +116,15 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     let name = for_terminal(&entrant.name);
     match &entrant.admission {
         Err(NotAdmitted::Rejected(rejection)) => {
-            return Err(
-                Failure::robot(text!("rejected `{}`: {}", name, rejection.to_string()))
-                    .hint(rejection.hint()),
-            );
+            return Err(Failure::robot(text!(
+                "rejected `{}`: {}",
+                name,
+                rejection.reason().escaped()
+            ))
+            .hint(rejection.hint()));
         }
         Err(NotAdmitted::Failed(reason)) => {
-            let message = text!("`{}` could not be admitted: {}", name, reason);
+            let message = text!("`{}` could not be admitted: {}", name, reason.escaped());
             return Err(Failure::internal(message));
         }
         Ok(_) => {}

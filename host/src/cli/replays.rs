@@ -61,7 +61,11 @@ impl SourceArgs {
             } else {
                 let replay = read(file)?;
                 let parts = replay.parts();
-                if self.means(&parts.robot, &parts.maze_name, parts.record.key.seed) {
+                if self.means(
+                    parts.robot.raw(),
+                    parts.maze_name.raw(),
+                    parts.record.key.seed,
+                ) {
                     replays.push(replay);
                 }
             }
@@ -152,8 +156,8 @@ pub fn read(path: &Path) -> Result<Replay, Failure> {
 /// The replay of a match in a store, which keeps no journals.
 fn replay_of(kept: KeptMatch) -> Result<Replay, ReplayFileError> {
     Replay::new(ReplayParts {
-        robot: kept.robot,
-        maze_name: kept.maze_name,
+        robot: kept.robot.into(),
+        maze_name: kept.maze_name.into(),
         maze: kept.maze,
         rules: kept.rules,
         record: kept.record,

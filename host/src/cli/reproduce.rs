@@ -7,6 +7,7 @@
 use std::collections::{HashMap, HashSet};
 use std::io;
 
+use wasmouse_core::GuestText;
 use wasmouse_core::record::{MatchKey, MatchRecord};
 
 use super::exit::Exit;
@@ -91,8 +92,8 @@ pub fn check(
         message!(
             "error: {} matches of `{}` were not played a second time: {}",
             matches,
-            names.robot(key),
-            reason
+            names.robot(key).escaped(),
+            reason.escaped()
         );
     }
     if count > 0 {
@@ -119,7 +120,7 @@ pub fn check(
 
 /// Why matches were not played, by robot: one of their keys, the first reason, how many.
 #[derive(Default)]
-struct Reasons(Vec<(MatchKey, (String, u64))>);
+struct Reasons(Vec<(MatchKey, (GuestText, u64))>);
 
 impl Sink for Reasons {
     fn played(&mut self, _: &ContestMatch) -> io::Result<()> {

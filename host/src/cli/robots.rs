@@ -399,9 +399,9 @@ pub fn admit(
         Ok(Err(error @ InfrastructureError::IncompleteSandbox { .. })) => {
             return Err(setup_failure(&error));
         }
-        Ok(Err(error)) => Err(NotAdmitted::Failed(error.to_string())),
+        Ok(Err(error)) => Err(NotAdmitted::Failed(error.to_string().into())),
         Err(_) => Err(NotAdmitted::Failed(
-            "wasmouse panicked, which is a bug".to_owned(),
+            "wasmouse panicked, which is a bug".into(),
         )),
     })
 }
@@ -587,7 +587,8 @@ mod tests {
         let Err(NotAdmitted::Failed(reason)) = &entrants[0].admission else {
             panic!("it was not even examined");
         };
-        assert!(reason.starts_with("run worker failed: "), "{reason}");
+        let reason = reason.as_guest();
+        assert!(reason.starts_with("run worker failed: "), "{reason:?}");
         assert!(entrants[1].admission.is_ok());
     }
 }

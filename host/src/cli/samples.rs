@@ -45,10 +45,14 @@ pub fn play(
         match &entrant.admission {
             Ok(_) => {}
             Err(NotAdmitted::Rejected(rejection)) => {
-                let message = text!("`{}` is rejected: {}", Text::of_path(robot), rejection);
+                let message = text!(
+                    "`{}` is rejected: {}",
+                    Text::of_path(robot),
+                    rejection.reason().escaped()
+                );
                 return Err(Failure::robot(message).hint(rejection.hint()));
             }
-            Err(NotAdmitted::Failed(reason)) => return Err(Failure::internal(reason)),
+            Err(NotAdmitted::Failed(reason)) => return Err(Failure::internal(reason.escaped())),
         }
     }
     let mut samples = Vec::new();

@@ -77,7 +77,7 @@ pub fn print_faults(
             message!(
                 "rejected `{}`: {}\n  hint: {}",
                 for_terminal(&entrant.name),
-                for_terminal(&rejection.to_string()),
+                for_terminal(&rejection.reason()),
                 rejection.hint()
             );
         }

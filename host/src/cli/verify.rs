@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use wasmouse_core::game::Ruleset;
 use wasmouse_core::record::MatchKey;
+use wasmouse_core::{GuestText, guest_text};
 use wasmouse_engine::{AdmissionLimits, LocalExecutor, engine_id};
 
 use super::exit::Exit;
@@ -233,7 +234,8 @@ impl Args {
         let found = self.play(&plan, &recorded, &executor)?;
         if is_interrupted()? {
             let (played, all) = (found.matches.len(), recorded.matches.len());
-            report.reason = Some(format!("interrupted after {played} of {all} matches"));
+            let reason = format!("interrupted after {played} of {all} matches");
+            report.reason = Some(reason.into());
             return Ok((report, Exit::Interrupted));
         }
         if let Some(reason) = not_played(&recorded, &found) {
@@ -303,12 +305,16 @@ impl Args {
 }
 
 /// Why not all recorded matches were played again.
-fn not_played(recorded: &Results, found: &Results) -> Option<String> {
+fn not_played(recorded: &Results, found: &Results) -> Option<GuestText> {
     let robots = recorded.contest.robots.iter().zip(&found.contest.robots);
     let mut failed = robots.filter(|(then, now)| then.failure.is_none() && now.failure.is_some());
     if let Some((robot, now)) = failed.next() {
-        let reason = now.failure.as_deref().unwrap_or_default();
-        return Some(format!("`{}` could not be admitted: {reason}", robot.name));
+        let reason = now.failure.clone().unwrap_or_default();
+        return Some(guest_text!(
+            "`{}` could not be admitted: {}",
+            robot.name,
+            reason
+        ));
     }
     if let Some(failure) = found.summary.failures.first() {
         return Some(failure.reason.clone());
@@ -317,7 +323,11 @@ fn not_played(recorded: &Results, found: &Results) -> Option<String> {
     let mut robots = found.contest.robots.iter();
     let robot = robots.find(|it| it.digest == withdrawn.robot && it.variant == withdrawn.variant);
     let name = robot.map_or("?", |it| it.name.as_str());
-    Some(format!("`{name}` was withdrawn: {}", withdrawn.reason))
+    Some(guest_text!(
+        "`{}` was withdrawn: {}",
+        name,
+        withdrawn.reason
+    ))
 }
 
 /// The report on a result whose matches were all played again.

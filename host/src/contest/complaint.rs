@@ -3,12 +3,14 @@
 //! Interpreters and runtimes report an uncaught exception or a panic on standard error, which
 //! arrives as lines of level error in the journal. The fault itself is then no more than
 //! `unreachable`. Records do not have these lines: they are derived from the journal of the match
-//! when it is played again. All of it is untrusted text.
+//! when it is played again. All of it is the robot's text.
 
 use std::collections::BTreeMap;
 
 use wasmouse_core::game::{Fault, FaultKind};
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::journal::{Journal, Level, Note};
+use wasmouse_core::{GuestText, guest_text};
 
 /// Lines that are kept, the last ones: they name the error.
 const LINES_MAX: usize = 20;
@@ -19,8 +21,8 @@ const LINE_CHARS_MAX: usize = 200;
 /// The lines of level error that a robot wrote in the call in which it failed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Complaint {
-    /// The lines, in order, unescaped. At most 20 of at most 200 characters and an ellipsis.
-    pub lines: Vec<String>,
+    /// The lines, in order. At most 20 of at most 200 characters and an ellipsis.
+    pub lines: Vec<GuestText>,
     /// How many lines before them are left out.
     pub left_out: usize,
 }
@@ -28,7 +30,7 @@ pub struct Complaint {
 impl Complaint {
     /// What the robot wrote in the call that ended in the fault; empty when it wrote nothing.
     pub fn of(journal: &Journal, fault: &Fault) -> Self {
-        let mut lines: Vec<String> = Vec::new();
+        let mut lines: Vec<GuestText> = Vec::new();
         for entry in journal.entries().filter(|it| it.step == fault.step) {
             if let Note::Log {
                 level: Level::Error,
@@ -36,7 +38,7 @@ impl Complaint {
             } = entry.note
             {
                 // A whole traceback may be one entry.
-                let text = text.lines().map(str::trim_end);
+                let text = text.lines().map(GuestStr::trim_end);
                 lines.extend(text.filter(|it| !it.is_empty()).map(cut));
             }
         }
@@ -53,11 +55,11 @@ impl Complaint {
     /// The line that says what went wrong, for a fault that does not say it itself, such as
     /// `unreachable`: in a Go panic the line that begins so, otherwise the last one, which is
     /// `ValueError: boom` in Python. Lines of a JavaScript stack trace are passed over.
-    pub fn headline(&self, kind: FaultKind) -> Option<&str> {
+    pub fn headline(&self, kind: FaultKind) -> Option<GuestStr<'_>> {
         if !says_nothing(kind) {
             return None;
         }
-        let lines = || self.lines.iter().map(|it| it.trim());
+        let lines = || self.lines.iter().map(|it| it.as_guest().trim());
         let of_go = lines().find(|it| it.starts_with("panic: ") || it.starts_with("fatal error: "));
         of_go.or_else(|| lines().rfind(|it| !it.starts_with("at ")))
     }
@@ -75,10 +77,10 @@ const fn says_nothing(kind: FaultKind) -> bool {
     )
 }
 
-fn cut(line: &str) -> String {
-    match line.char_indices().nth(LINE_CHARS_MAX) {
-        Some((end, _)) => format!("{}…", &line[..end]),
-        None => line.to_owned(),
+fn cut(line: GuestStr<'_>) -> GuestText {
+    match line.cut(LINE_CHARS_MAX) {
+        (start, true) => guest_text!("{}…", start),
+        (whole, false) => whole.into(),
     }
 }
 
@@ -121,6 +123,7 @@ mod tests {
         let mut journal = Journal::default();
         journal.clear(1 << 20);
         for &(step, level, text) in entries {
+            let text = text.into();
             journal.push(step, Note::Log { level, text });
         }
         let fault = Fault {
@@ -129,7 +132,7 @@ mod tests {
             run: Run::Exploration,
             step: 4,
             cell: Cell::new(0, 3),
-            detail: "executed `unreachable`".to_owned(),
+            detail: "executed `unreachable`".into(),
         };
         Complaint::of(&journal, &fault)
     }
@@ -152,7 +155,10 @@ mod tests {
             "ValueError: boom",
         ];
         assert_eq!(found.lines, lines);
-        assert_eq!(found.headline(FaultKind::Unreachable), Some(lines[2]));
+        assert_eq!(
+            found.headline(FaultKind::Unreachable),
+            Some(lines[2].into())
+        );
         assert_eq!(found.headline(FaultKind::Panic), None, "it has a message");
         assert!(complaint(&[(4, Level::Warning, "hm")]).is_empty());
     }
@@ -174,7 +180,10 @@ mod tests {
             ),
         ] {
             let found = complaint(&[(4, Level::Error, text)]);
-            assert_eq!(found.headline(FaultKind::Unreachable), Some(headline));
+            assert_eq!(
+                found.headline(FaultKind::Unreachable),
+                Some(headline.into())
+            );
         }
         let found = complaint(&[(4, Level::Error, "at a wall")]);
         assert_eq!(found.headline(FaultKind::Unreachable), None);
@@ -187,7 +196,7 @@ mod tests {
             .collect();
         let found = complaint(&[(4, Level::Error, &text.join("\n"))]);
         assert_eq!((found.lines.len(), found.left_out), (20, 30));
-        assert!(found.lines[0].starts_with("30 "));
-        assert_eq!(found.lines[0].chars().count(), LINE_CHARS_MAX + 1);
+        assert!(found.lines[0].as_guest().starts_with("30 "));
+        assert_eq!(found.lines[0].raw().chars().count(), LINE_CHARS_MAX + 1);
     }
 }

@@ -7,9 +7,9 @@
 use std::collections::BTreeMap;
 use std::io;
 
-use wasmouse_core::Digest;
 use wasmouse_core::game::{FaultKind, Ruleset, Score, Steps, Verdict};
 use wasmouse_core::record::{FuelUse, MatchRecord};
+use wasmouse_core::{Digest, GuestText};
 
 use super::maze_source::ContestMaze;
 use super::plan::{NotAdmitted, Plan, Seeds};
@@ -50,7 +50,7 @@ pub struct MatrixRobot {
     /// Its faults by the name of the kind.
     pub faults: BTreeMap<&'static str, MatrixFault>,
     /// Matches that were not played, by reason: the host failed, or the robot was withdrawn.
-    pub unplayed: BTreeMap<String, u64>,
+    pub unplayed: BTreeMap<GuestText, u64>,
 }
 
 /// The faults of one kind of one robot.

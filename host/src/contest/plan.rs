@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use wasmouse_core::Digest;
 use wasmouse_core::game::Ruleset;
 use wasmouse_core::record::{MatchKey, MatchSpec};
+use wasmouse_core::{Digest, GuestText};
 use wasmouse_engine::admission::Rejection;
 use wasmouse_engine::{AdmittedRobot, engine_id};
 
@@ -31,7 +31,7 @@ pub enum NotAdmitted {
     /// Its file is rejected.
     Rejected(Arc<Rejection>),
     /// The host could not admit it, which says nothing about the robot: why.
-    Failed(String),
+    Failed(GuestText),
 }
 
 /// Consecutive seeds.

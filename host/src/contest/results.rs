@@ -9,8 +9,9 @@ use std::io;
 
 use serde::{Deserialize, Serialize};
 use wasmouse_core::game::{Ruleset, Score};
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::record::{EngineId, MatchKey, MatchRecord};
-use wasmouse_core::{Digest, DigestBuilder};
+use wasmouse_core::{Digest, DigestBuilder, GuestText};
 use wasmouse_engine::admission::Rejection;
 use wasmouse_engine::engine_id;
 
@@ -69,7 +70,7 @@ pub struct RobotEntry {
     pub rejection: Option<RejectionEntry>,
     /// Why the host could not admit it, so that it played no match; says nothing about the robot.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub failure: Option<String>,
+    pub failure: Option<GuestText>,
 }
 
 impl RobotEntry {
@@ -86,7 +87,7 @@ pub struct RejectionEntry {
     /// A short name: lowercase letters and hyphens.
     pub kind: String,
     /// Why.
-    pub reason: String,
+    pub reason: GuestText,
     /// What to do.
     pub hint: String,
 }
@@ -95,7 +96,7 @@ impl From<&Rejection> for RejectionEntry {
     fn from(rejection: &Rejection) -> Self {
         Self {
             kind: rejection.name().to_owned(),
-            reason: rejection.to_string(),
+            reason: rejection.reason(),
             hint: rejection.hint().to_owned(),
         }
     }
@@ -142,7 +143,7 @@ pub struct WithdrawalEntry {
     /// Its variant.
     pub variant: u32,
     /// Why.
-    pub reason: String,
+    pub reason: GuestText,
     /// How many of its matches were not played for that.
     pub matches: u64,
 }
@@ -199,7 +200,7 @@ impl Results {
 /// The names of robots and mazes, found by the parts of a match key.
 #[derive(Clone, Debug, Default)]
 pub struct Names<'a> {
-    robots: HashMap<(Digest, u32), &'a str>,
+    robots: HashMap<(Digest, u32), GuestStr<'a>>,
     mazes: HashMap<Digest, &'a MazeEntry>,
 }
 
@@ -209,7 +210,10 @@ impl<'a> Names<'a> {
         let mut names = Self::default();
         for robot in robots {
             let key = (robot.digest, robot.variant);
-            names.robots.entry(key).or_insert(&robot.name);
+            names
+                .robots
+                .entry(key)
+                .or_insert(robot.name.as_str().into());
         }
         for maze in mazes {
             names.mazes.entry(maze.digest).or_insert(maze);
@@ -218,9 +222,9 @@ impl<'a> Names<'a> {
     }
 
     /// The name of the robot of a match; `?` when it is not listed.
-    pub fn robot(&self, key: &MatchKey) -> &'a str {
+    pub fn robot(&self, key: &MatchKey) -> GuestStr<'a> {
         let robot = (key.robot, key.variant);
-        self.robots.get(&robot).copied().unwrap_or("?")
+        self.robots.get(&robot).copied().unwrap_or("?".into())
     }
 
     /// The maze of a match; `None` when it is not listed.
@@ -229,8 +233,8 @@ impl<'a> Names<'a> {
     }
 
     /// The name of the maze of a match; `?` when it is not listed.
-    pub fn maze_name(&self, key: &MatchKey) -> &'a str {
-        self.maze(key).map_or("?", |maze| &maze.name)
+    pub fn maze_name(&self, key: &MatchKey) -> GuestStr<'a> {
+        self.maze(key).map_or("?", |maze| &maze.name).into()
     }
 }
 

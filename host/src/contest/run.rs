@@ -394,7 +394,7 @@ impl Run<'_> {
             done += 1;
             let ended = Arc::new(Ended::Failed(MatchFailure {
                 key: spec.key,
-                reason: "wasmouse panicked, which is a bug".to_owned(),
+                reason: "wasmouse panicked, which is a bug".into(),
             }));
             self.report(self.maze(block, first + row as u64), &ended);
             played.ended[row - batch.rows.start] = Some(ended);
@@ -417,7 +417,7 @@ impl Run<'_> {
     ) -> Option<Ended> {
         let failure = |reason: String| MatchFailure {
             key: spec.key,
-            reason,
+            reason: reason.into(),
         };
         match played {
             Ok(played) => Some(Ended::Played(ContestMatch {

@@ -3,6 +3,7 @@
 use std::io;
 
 use serde::{Deserialize, Serialize};
+use wasmouse_core::GuestText;
 use wasmouse_core::record::{MatchKey, MatchRecord, Transcript};
 
 use super::maze_source::ContestMaze;
@@ -26,7 +27,7 @@ pub struct MatchFailure {
     /// Which match.
     pub key: MatchKey,
     /// What went wrong.
-    pub reason: String,
+    pub reason: GuestText,
 }
 
 /// What came of a match of a contest.

@@ -137,11 +137,11 @@ impl Tally {
 
 #[cfg(test)]
 pub(super) mod tests {
-    use wasmouse_core::Digest;
     use wasmouse_core::game::{Counts, Fault, FaultKind, Run, Steps};
     use wasmouse_core::journal::JournalCounts;
     use wasmouse_core::maze::Cell;
     use wasmouse_core::record::{FuelUse, MatchKey, RecordVersion};
+    use wasmouse_core::{Digest, GuestText};
 
     use super::*;
 
@@ -189,7 +189,7 @@ pub(super) mod tests {
             run: Run::Exploration,
             step: 3,
             cell: Cell::new(0, 0),
-            detail: String::new(),
+            detail: GuestText::new(),
         };
         record(Verdict::Fault { fault }, [2, 0], (10, 9))
     }

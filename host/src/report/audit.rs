@@ -23,13 +23,13 @@
 //! position where they changed; `trace` is the digest of all steps with their readings.
 
 use serde::Serialize;
-use wasmouse_core::Digest;
 use wasmouse_core::game::Steps;
 use wasmouse_core::journal::Belief;
 use wasmouse_core::knowledge::{Audit, Outlook};
 use wasmouse_core::maze::{Cell, Heading};
 use wasmouse_core::playback::Playback;
 use wasmouse_core::replay::Replay;
+use wasmouse_core::{Digest, GuestText};
 
 use super::escape::for_terminal;
 use super::json;
@@ -147,8 +147,8 @@ struct Document<'a> {
 
 #[derive(Serialize)]
 struct Entry<'a> {
-    robot: &'a str,
-    maze: &'a str,
+    robot: &'a GuestText,
+    maze: &'a GuestText,
     seed: u64,
     r#match: Digest,
     verdict: String,

@@ -101,7 +101,9 @@ fn ending(record: &MatchRecord) -> Text {
             record.steps.exploration,
             record.steps.speed
         ),
-        Verdict::Fault { fault } => text!("{}: {}", record.verdict.title(), fault),
+        Verdict::Fault { fault } => {
+            text!("{}: {}", record.verdict.title(), fault.describe().escaped())
+        }
         verdict @ Verdict::BudgetUsedUp { .. } => text!("{}", verdict.title()),
     }
 }

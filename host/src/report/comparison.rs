@@ -147,8 +147,7 @@ impl Comparisons {
     pub fn to_text(&self, layout: Layout) -> String {
         let mut text = String::new();
         for comparison in &self.comparisons {
-            let [first, second] =
-                [&comparison.first, &comparison.second].map(|it| for_terminal(it));
+            let [first, second] = [&comparison.first, &comparison.second].map(for_terminal);
             let all = &comparison.all;
             let verdict = match all.verdict {
                 verdict if verdict == PairedVerdict::Undecided.name() => verdict.to_owned(),

@@ -63,7 +63,7 @@ pub fn contest_status(status: &Status<'_>) -> String {
             line(text!("    {} times {}", fault.count, kind));
         }
         for (reason, count) in &robot.unplayed {
-            line(text!("    {} not played: {}", count, reason));
+            line(text!("    {} not played: {}", count, reason.escaped()));
         }
     }
     line(text!("\nsubmissions, the oldest first"));

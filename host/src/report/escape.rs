@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use wasmouse_core::guest_text::{GuestStr, misleads};
+
 /// The text with every character escaped that could control a terminal or mislead a reader:
 /// control characters, line breaks, bidirectional overrides, zero-width and other invisible
 /// characters.
@@ -12,18 +14,8 @@ use std::fmt::Write as _;
 /// assert_eq!(for_terminal("\u{1b}[31mred\n"), "\\u{1b}[31mred\\n");
 /// assert_eq!(for_terminal("a\u{202e}b"), "a\\u{202e}b");
 /// ```
-pub fn for_terminal(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for character in text.chars() {
-        if character.is_control() {
-            escaped.extend(character.escape_debug());
-        } else if is_invisible(character) {
-            escaped.extend(character.escape_unicode());
-        } else {
-            escaped.push(character);
-        }
-    }
-    escaped
+pub fn for_terminal<'a>(text: impl Into<GuestStr<'a>>) -> String {
+    text.into().escaped().to_string()
 }
 
 /// JSON with every character escaped that [`for_terminal`] escapes: a program reads the same
@@ -34,7 +26,7 @@ pub(super) fn json_for_terminal(json: &str) -> String {
     for character in json.chars() {
         // A line break is always between values, because one in a string is escaped already.
         // All other characters of this kind are in strings: no other part of JSON has them.
-        if character != '\n' && (character.is_control() || is_invisible(character)) {
+        if character != '\n' && misleads(character) {
             for unit in character.encode_utf16(&mut [0; 2]) {
                 write!(escaped, "\\u{unit:04x}").expect("writing to a string cannot fail");
             }
@@ -43,41 +35,6 @@ pub(super) fn json_for_terminal(json: &str) -> String {
         }
     }
     escaped
-}
-
-/// Characters that cannot be seen and change how their neighbours look, or hide that two names
-/// differ: Unicode's category Cf, its separators of lines and paragraphs, and what it calls
-/// default ignorable (joiners, fillers, variation selectors, tags), assigned or not.
-const fn is_invisible(character: char) -> bool {
-    matches!(
-        character,
-        '\u{ad}'
-            | '\u{34f}'
-            | '\u{600}'..='\u{605}'
-            | '\u{61c}'
-            | '\u{6dd}'
-            | '\u{70f}'
-            | '\u{890}'..='\u{891}'
-            | '\u{8e2}'
-            | '\u{115f}'..='\u{1160}'
-            | '\u{17b4}'..='\u{17b5}'
-            | '\u{180b}'..='\u{180f}'
-            | '\u{200b}'..='\u{200f}'
-            | '\u{2028}'..='\u{202e}'
-            | '\u{2060}'..='\u{206f}'
-            | '\u{2800}'
-            | '\u{3164}'
-            | '\u{fe00}'..='\u{fe0f}'
-            | '\u{feff}'
-            | '\u{ffa0}'
-            | '\u{fff0}'..='\u{fffb}'
-            | '\u{110bd}'
-            | '\u{110cd}'
-            | '\u{13430}'..='\u{1345f}'
-            | '\u{1bca0}'..='\u{1bca3}'
-            | '\u{1d173}'..='\u{1d17a}'
-            | '\u{e0000}'..='\u{e0fff}'
-    )
 }
 
 #[cfg(test)]

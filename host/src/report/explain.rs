@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use wasmouse_core::game::{Action, Event, GameRules, Sensors, Simulation, Step, Trace};
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::journal::{Belief, Color, Journal, Level, Note};
 use wasmouse_core::maze::{Cell, Heading, Maze, Turn};
 use wasmouse_core::record::MatchRecord;
@@ -208,7 +209,7 @@ fn print_marks(marks: &mut Vec<String>, text: &mut String) {
 }
 
 /// Prints a log line; one that is too long goes on below.
-fn print_log(level: Level, line: &str, text: &mut String) {
+fn print_log(level: Level, line: GuestStr<'_>, text: &mut String) {
     let mut start = format!("{:<8}", level_name(level));
     let room = WIDTH - INDENT.len() - start.len();
     for line in line.lines() {
@@ -297,7 +298,10 @@ mod tests {
         let (result, trace) = trace(&maze, &rules, &transcript).expect("a match");
         let mut journal = Journal::default();
         journal.clear(10_000);
-        let log = |level, text| Note::Log { level, text };
+        fn log(level: Level, text: &str) -> Note<'_> {
+            let text = text.into();
+            Note::Log { level, text }
+        }
         let cell = Cell::new(1, 2);
         let long = "long ".repeat(30);
         for (step, note) in [
@@ -313,7 +317,7 @@ mod tests {
                 1,
                 Note::Label {
                     cell,
-                    text: HOSTILE,
+                    text: HOSTILE.into(),
                 },
             ),
             (

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use wasmouse_core::game::Fault;
+use wasmouse_core::{GuestText, guest_text};
 
 use super::escape;
 use crate::contest::{Complaint, Complaints, FaultSummary, Names};
@@ -43,11 +44,11 @@ pub fn faults(
 }
 
 /// The fault with its place, after what the robot says about it if the fault says nothing itself:
-/// `ValueError: boom; executed `unreachable` (panicked or aborted) in step 4 (...)`. Not escaped.
-pub(crate) fn explained(fault: &Fault, complaint: Option<&Complaint>) -> String {
+/// `ValueError: boom; executed `unreachable` (panicked or aborted) in step 4 (...)`.
+pub(crate) fn explained(fault: &Fault, complaint: Option<&Complaint>) -> GuestText {
     match complaint.and_then(|it| it.headline(fault.kind)) {
-        Some(headline) => format!("{headline}; {fault}"),
-        None => fault.to_string(),
+        Some(headline) => guest_text!("{}; {}", headline, fault.describe()),
+        None => fault.describe(),
     }
 }
 
@@ -102,7 +103,7 @@ mod tests {
         assert_eq!(text.lines().count(), 1, "{text}");
 
         let complaint = Complaint {
-            lines: vec!["Traceback\u{1b}[31m".to_owned(), "fault: `me`".to_owned()],
+            lines: vec!["Traceback\u{1b}[31m".into(), "fault: `me`".into()],
             left_out: 3,
         };
         let mut complaints = Complaints::default();
@@ -125,13 +126,13 @@ mod tests {
             .find_map(|it| it.verdict.fault().cloned())
             .expect("a fault");
         let complaint = Complaint {
-            lines: vec!["ValueError: boom".to_owned()],
+            lines: vec!["ValueError: boom".into()],
             left_out: 0,
         };
-        assert_eq!(explained(&fault, Some(&complaint)), fault.to_string());
+        assert_eq!(explained(&fault, Some(&complaint)), fault.describe());
         fault.kind = FaultKind::Unreachable;
-        let expected = format!("ValueError: boom; {fault}");
+        let expected = guest_text!("ValueError: boom; {}", fault.describe());
         assert_eq!(explained(&fault, Some(&complaint)), expected);
-        assert_eq!(explained(&fault, None), fault.to_string());
+        assert_eq!(explained(&fault, None), fault.describe());
     }
 }

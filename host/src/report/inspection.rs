@@ -90,7 +90,7 @@ impl<'a> InspectionReport<'a> {
             admitted: rejection.is_none(),
             rejection: rejection.map(|rejection| RejectionEntry {
                 kind: rejection.name().to_owned(),
-                reason: rejection.to_string(),
+                reason: rejection.reason(),
                 hint: rejection.hint().to_owned(),
             }),
             imports: shape.map(|shape| shape.imports.as_slice()),

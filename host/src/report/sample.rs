@@ -23,7 +23,7 @@ fn verdicts() -> [Verdict; 4] {
         run: Run::Exploration,
         step: 5,
         cell: Cell::new(0, 3),
-        detail: format!("panicked: {HOSTILE}"),
+        detail: format!("panicked: {HOSTILE}").into(),
     };
     [
         Verdict::Finished {
@@ -45,7 +45,7 @@ pub(super) fn results() -> Results {
         variant: 0,
         rejection: (name == "rejected").then(|| RejectionEntry {
             kind: "unknown-import".to_owned(),
-            reason: format!("it imports {HOSTILE}"),
+            reason: format!("it imports {HOSTILE}").into(),
             hint: "build it without".to_owned(),
         }),
         failure: None,
@@ -90,7 +90,7 @@ pub(super) fn results() -> Results {
     let matches: Vec<MatchRecord> = matches.collect();
     let failures = vec![MatchFailure {
         key: key(0, 1),
-        reason: format!("a worker exited: {HOSTILE}"),
+        reason: format!("a worker exited: {HOSTILE}").into(),
     }];
     let line = |rank, robot: &str, finished, mean| Standing {
         rank,
@@ -132,7 +132,7 @@ pub(super) fn results() -> Results {
             withdrawn: vec![WithdrawalEntry {
                 robot: Digest::of(HOSTILE.as_bytes()),
                 variant: 0,
-                reason: format!("too slow: {HOSTILE}"),
+                reason: format!("too slow: {HOSTILE}").into(),
                 matches: 7,
             }],
             standings,

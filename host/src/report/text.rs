@@ -18,6 +18,8 @@ pub struct Text(String);
 /// What can become part of a [`Text`]: a text as it is, and everything else escaped.
 ///
 /// A path is neither: it may not even be Unicode. [`Text::of_path`] makes a text of it.
+/// A [`GuestText`](wasmouse_core::GuestText) is neither: its
+/// [`escaped`](wasmouse_core::GuestText::escaped) form is.
 ///
 /// ```
 /// use wasmouse::report::text::Printable as _;
@@ -27,6 +29,11 @@ pub struct Text(String);
 /// ```compile_fail
 /// use wasmouse::report::text::Printable as _;
 /// std::path::Path::new("red").to_text();
+/// ```
+///
+/// ```compile_fail
+/// use wasmouse::report::text::Printable as _;
+/// wasmouse_core::GuestText::from("red").to_text();
 /// ```
 pub trait Printable {
     /// The safe text.

@@ -25,8 +25,8 @@ use std::fmt;
 
 use serde::Serialize;
 use serde_json::Value;
-use wasmouse_core::Digest;
 use wasmouse_core::record::{EngineId, MatchKey};
+use wasmouse_core::{Digest, GuestText};
 use wasmouse_engine::engine_id;
 
 use super::escape::for_terminal;
@@ -64,7 +64,7 @@ pub struct FileReport {
     /// Robots and mazes that would be needed.
     pub not_found: Vec<NotFound>,
     /// Why the document was not verified, or not all of it.
-    pub reason: Option<String>,
+    pub reason: Option<GuestText>,
 }
 
 /// The result for one document.
@@ -128,9 +128,9 @@ pub struct Difference {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct MatchName {
     /// The robot.
-    pub robot: String,
+    pub robot: GuestText,
     /// The maze.
-    pub maze: String,
+    pub maze: GuestText,
     /// The seed.
     pub seed: u64,
 }
@@ -139,8 +139,8 @@ impl MatchName {
     /// The name of the match with that key.
     pub fn new(names: &Names<'_>, key: &MatchKey) -> Self {
         Self {
-            robot: names.robot(key).to_owned(),
-            maze: names.maze_name(key).to_owned(),
+            robot: names.robot(key).into(),
+            maze: names.maze_name(key).into(),
             seed: key.seed,
         }
     }
@@ -192,7 +192,7 @@ impl FileReport {
             status: Status::Incomplete,
             differences: Differences::default(),
             not_found: Vec::new(),
-            reason: Some(reason.to_owned()),
+            reason: Some(reason.into()),
         }
     }
 

@@ -1,6 +1,7 @@
 //! A [`MatchRecord`] as the columns of the table `match`, and back.
 
 use rusqlite::{Row, Statement, params};
+use wasmouse_core::GuestText;
 use wasmouse_core::game::{Counts, Fault, FaultKind, Phase, Ruleset, Run, Score, Steps, Verdict};
 use wasmouse_core::journal::JournalCounts;
 use wasmouse_core::maze::Cell;
@@ -130,7 +131,7 @@ pub(super) fn insert(
         fault.map(|it| it.step),
         fault.map(|it| it.cell.x),
         fault.map(|it| it.cell.y),
-        fault.map(|it| &it.detail),
+        fault.map(|it| it.detail.raw()),
     ])?;
     Ok(rows > 0)
 }
@@ -227,7 +228,7 @@ fn read_fault(row: &Row<'_>) -> rusqlite::Result<Option<Fault>> {
         run,
         step: row.get(17)?,
         cell: Cell::new(row.get(18)?, row.get(19)?),
-        detail: row.get(20)?,
+        detail: GuestText::from(row.get::<_, String>(20)?),
     }))
 }
 

@@ -138,7 +138,7 @@ fn submissions_by_name(connection: &Connection) -> Result<Vec<Digest>, StoreErro
     let mut all = submissions::all(connection)?;
     // Stable, so the order within a name stays.
     all.sort_by(|left, right| left.name.cmp(&right.name));
-    let text = |builder: DigestBuilder, text: Option<&String>| match text {
+    let text = |builder: DigestBuilder, text: Option<&str>| match text {
         Some(text) => builder.numbers(&[1]).bytes(text.as_bytes()),
         None => builder.numbers(&[0]),
     };
@@ -149,11 +149,11 @@ fn submissions_by_name(connection: &Connection) -> Result<Vec<Digest>, StoreErro
             let rejection = it.rejection.as_ref();
             let builder = builder.bytes(it.name.as_bytes()).digest(&it.robot);
             let builder = builder.numbers(&[it.variant.into()]);
-            let builder = text(builder, it.author.as_ref());
-            let builder = text(builder, it.class.as_ref());
-            let builder = text(builder, rejection.map(|it| &it.kind));
-            let builder = text(builder, rejection.map(|it| &it.reason));
-            text(builder, rejection.map(|it| &it.hint))
+            let builder = text(builder, it.author.as_deref());
+            let builder = text(builder, it.class.as_deref());
+            let builder = text(builder, rejection.map(|it| &*it.kind));
+            let builder = text(builder, rejection.map(|it| it.reason.raw()));
+            text(builder, rejection.map(|it| &*it.hint))
         });
         builder.finish()
     });
@@ -247,7 +247,7 @@ fn record_digest(record: &MatchRecord) -> Digest {
             fault.cell.y.into(),
         ])
         .bytes(phase.as_bytes())
-        .bytes(fault.detail.as_bytes())
+        .bytes(fault.detail.raw().as_bytes())
         .finish()
 }
 

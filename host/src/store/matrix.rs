@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, HashMap};
 
 use rusqlite::{Connection, Row, params};
-use wasmouse_core::Digest;
 use wasmouse_core::game::{Ruleset, Steps};
 use wasmouse_core::record::MatchRecord;
+use wasmouse_core::{Digest, GuestText};
 
 use super::columns::{self, BUDGET_USED_UP, FAULT, FINISHED, GOAL_REACHED};
 use super::error::{StoreError, StoreErrorKind};
@@ -196,11 +196,11 @@ impl Filling<'_> {
             let fault = MatrixFault { count, first };
             matrix.robots[robot].faults.insert(kind, fault);
         }
-        let mut reasons: BTreeMap<String, u64> = BTreeMap::new();
+        let mut reasons: BTreeMap<GuestText, u64> = BTreeMap::new();
         unplayed::each(self.connection, &keys, |_, maze, seed, _, reason| {
             let seed = keys.seed_position(seed.cast_unsigned());
             if self.mazes.contains_key(&maze) && seed.is_some() {
-                *reasons.entry(reason.to_owned()).or_default() += 1;
+                *reasons.entry(reason.into()).or_default() += 1;
             }
         })?;
         matrix.robots[robot].unplayed = reasons;

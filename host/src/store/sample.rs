@@ -177,7 +177,7 @@ fn any_fault() -> impl Strategy<Value = Fault> {
             run,
             step,
             cell: Cell::new(x, y),
-            detail,
+            detail: detail.into(),
         },
     )
 }

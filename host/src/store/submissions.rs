@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use rusqlite::{Connection, OptionalExtension as _, params};
-use wasmouse_core::Digest;
+use wasmouse_core::{Digest, GuestText};
 
 use super::error::{StoreError, StoreErrorKind};
 use super::ids::{self, digest_at};
@@ -88,7 +88,7 @@ fn read(row: &rusqlite::Row<'_>) -> rusqlite::Result<Submission> {
     let rejection = match row.get(5)? {
         Some(kind) => Some(RejectionEntry {
             kind,
-            reason: row.get(6)?,
+            reason: GuestText::from(row.get::<_, String>(6)?),
             hint: row.get(7)?,
         }),
         None => None,
@@ -134,7 +134,7 @@ pub(super) fn append(
         robot,
         submission.variant,
         rejection.map(|it| &it.kind),
-        rejection.map(|it| &it.reason),
+        rejection.map(|it| it.reason.raw()),
         rejection.map(|it| &it.hint),
     ])?;
     Ok(())

@@ -1,6 +1,7 @@
 //! Matches that were not played, and why.
 
 use rusqlite::{Connection, params};
+use wasmouse_core::GuestText;
 use wasmouse_core::record::MatchKey;
 
 use super::error::{StoreError, StoreErrorKind};
@@ -24,8 +25,8 @@ pub struct Unplayed {
     pub key: MatchKey,
     /// Why.
     pub cause: Cause,
-    /// Why, in words. May be untrusted text.
-    pub reason: String,
+    /// Why, in words.
+    pub reason: GuestText,
 }
 
 impl Cause {
@@ -67,7 +68,7 @@ impl Store {
                     let unplayed = Unplayed {
                         key: keys.key(player, maze, seed),
                         cause,
-                        reason: reason.to_owned(),
+                        reason: reason.into(),
                     };
                     found.push(((maze, seed, player), unplayed));
                 }

@@ -13,6 +13,7 @@ use wasmouse::contest::{
 use wasmouse::report::contest::{ContestReport, Place, Playable, ReportOptions, html};
 use wasmouse_core::Digest;
 use wasmouse_core::game::{Action, FaultKind, GameRules, Phase, Ruleset, Simulation};
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::journal::{Belief, Color, Journal, Level, Note};
 use wasmouse_core::maze::generate::GenSpec;
 use wasmouse_core::maze::{Cell, Heading, Maze, Turn};
@@ -188,8 +189,20 @@ fn sample_replay(robot: &str, maze_name: &str, note: &str, is_other: bool) -> Re
     for step in 0..60 {
         let cell = Cell::new((step % 12) as u8, (step / 12) as u8);
         let level = [Level::Debug, Level::Info, Level::Warning, Level::Error][step as usize % 4];
-        journal.push(step, Note::Log { level, text: note });
-        journal.push(step, Note::Label { cell, text: note });
+        journal.push(
+            step,
+            Note::Log {
+                level,
+                text: note.into(),
+            },
+        );
+        journal.push(
+            step,
+            Note::Label {
+                cell,
+                text: note.into(),
+            },
+        );
         let color = [Color::Red, Color::Violet, Color::None][step as usize % 3];
         journal.push(step, Note::Paint { cell, color });
         let belief = [Belief::Open, Belief::Closed, Belief::Unknown][step as usize % 3];
@@ -210,8 +223,8 @@ fn sample_replay(robot: &str, maze_name: &str, note: &str, is_other: bool) -> Re
     };
     let record = MatchRecord::new(key, result, usage, &transcript);
     Replay::new(ReplayParts {
-        robot: robot.chars().take(200).collect(),
-        maze_name: maze_name.chars().take(200).collect(),
+        robot: GuestStr::from(robot).cut(200).0.into(),
+        maze_name: GuestStr::from(maze_name).cut(200).0.into(),
         maze,
         rules,
         record,

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     Action, BudgetScope, Fault, FaultKind, GameRules, Phase, Run, Sensors, Steps, Verdict,
 };
+use crate::guest_text::GuestText;
 use crate::maze::{Cell, Heading, Maze, Turn};
 
 /// The effect of a step.
@@ -147,7 +148,7 @@ impl<'a> Simulation<'a> {
     }
 
     /// A fault of the robot at this point of the match.
-    pub fn fault(&self, kind: FaultKind, phase: Phase, detail: String) -> Fault {
+    pub fn fault(&self, kind: FaultKind, phase: Phase, detail: GuestText) -> Fault {
         Fault {
             kind,
             phase,

@@ -1,11 +1,12 @@
 //! [`Verdict`]: how a match ended. [`Fault`]: how a robot failed.
 
 use std::borrow::Cow;
-use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
 use super::{Run, Score};
+use crate::guest_text;
+use crate::guest_text::GuestText;
 use crate::maze::Cell;
 
 /// How a match ended. The set is closed: every match has exactly one verdict.
@@ -217,19 +218,21 @@ pub struct Fault {
     pub step: u32,
     /// The robot's cell.
     pub cell: Cell,
-    /// A message for the contestant. It may quote text of the robot, so escape it before
-    /// displaying it.
-    pub detail: String,
+    /// A message for the contestant. It may quote text of the robot.
+    pub detail: GuestText,
 }
 
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Fault {
+    /// The message, with where in the match it happened.
+    pub fn describe(&self) -> GuestText {
         let (run, step, cell) = (self.run.name(), self.step, self.cell);
         match self.phase {
-            Phase::Instantiate => write!(f, "{} during instantiation", self.detail),
-            Phase::Unknown => f.write_str(&self.detail),
-            Phase::Start => write!(f, "{} in `start`", self.detail),
-            Phase::NextMove => write!(f, "{} in step {step} ({run}, at {cell})", self.detail),
+            Phase::Instantiate => guest_text!("{} during instantiation", self.detail),
+            Phase::Unknown => self.detail.clone(),
+            Phase::Start => guest_text!("{} in `start`", self.detail),
+            Phase::NextMove => {
+                guest_text!("{} in step {} ({}, at {})", self.detail, step, run, cell)
+            }
         }
     }
 }

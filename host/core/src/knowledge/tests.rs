@@ -35,7 +35,7 @@ fn play(maze: &Maze, actions: &[Action]) -> (Trace, Verdict) {
         trace.apply(&mut simulation, action);
     }
     let verdict = simulation.verdict().unwrap_or_else(|| {
-        let fault = simulation.fault(FaultKind::Panic, Phase::NextMove, String::new());
+        let fault = simulation.fault(FaultKind::Panic, Phase::NextMove, "".into());
         Verdict::Fault { fault }
     });
     (trace, verdict)

@@ -2,6 +2,7 @@
 
 use crate::Digest;
 use crate::game::{Action, FaultKind, Phase};
+use crate::guest_text::GuestText;
 use crate::maze::Turn;
 
 /// How a match ended.
@@ -16,8 +17,8 @@ pub enum Ending {
         kind: FaultKind,
         /// The part of the match.
         phase: Phase,
-        /// A message for the contestant; untrusted text.
-        detail: String,
+        /// A message for the contestant. It may quote text of the robot.
+        detail: GuestText,
     },
 }
 
@@ -111,11 +112,11 @@ impl Transcript {
     }
 
     /// Ends the match with a fault.
-    pub fn end_with_fault(&mut self, kind: FaultKind, phase: Phase, detail: String) {
+    pub fn end_with_fault(&mut self, kind: FaultKind, phase: Phase, detail: impl Into<GuestText>) {
         self.ending = Ending::Fault {
             kind,
             phase,
-            detail,
+            detail: detail.into(),
         };
     }
 
@@ -173,7 +174,7 @@ impl Transcript {
                 Ending::Fault {
                     kind,
                     phase,
-                    detail: detail.to_owned(),
+                    detail: detail.into(),
                 }
             }
         };
@@ -204,7 +205,7 @@ impl Transcript {
                     position(&Phase::ALL, phase),
                 ];
                 bytes.extend(length.to_le_bytes());
-                bytes.extend_from_slice(detail.as_bytes());
+                bytes.extend_from_slice(detail.raw().as_bytes());
                 bytes
             }
         }

@@ -8,6 +8,7 @@ use super::error::ReplayFileError;
 use super::parts::{Replay, ReplayParts};
 use crate::Digest;
 use crate::game::Ruleset;
+use crate::guest_text::GuestText;
 use crate::journal::{Belief, Color, Journal, Level, Note, NoteOf};
 use crate::maze::{Cell, Heading, Maze};
 use crate::record::{MatchRecord, Transcript};
@@ -20,7 +21,7 @@ const VERSION: u32 = 1;
 struct Form {
     format: String,
     version: u32,
-    robot: String,
+    robot: GuestText,
     maze: MazeForm,
     rules: Ruleset,
     record: MatchRecord,
@@ -33,7 +34,7 @@ struct Form {
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct MazeForm {
-    name: String,
+    name: GuestText,
     start: Cell,
     goal: GoalForm,
     columns: Vec<String>,
@@ -55,7 +56,7 @@ enum EntryForm {
     Log {
         step: u32,
         level: Level,
-        text: String,
+        text: GuestText,
     },
     Paint {
         step: u32,
@@ -67,7 +68,7 @@ enum EntryForm {
         step: u32,
         x: u8,
         y: u8,
-        text: String,
+        text: GuestText,
     },
     Wall {
         step: u32,
@@ -140,7 +141,7 @@ impl TryFrom<Form> for Replay {
 }
 
 impl MazeForm {
-    fn new(name: String, maze: &Maze) -> Self {
+    fn new(name: GuestText, maze: &Maze) -> Self {
         let (n, goal) = (maze.dimension(), maze.goal());
         let digit = |x, y| char::from_digit(maze.walls().value(Cell::new(x, y)).into(), 16);
         let digit = |x, y| digit(x, y).expect("the value of a cell is below 16");
@@ -190,7 +191,7 @@ fn entries(journal: &Journal) -> Vec<EntryForm> {
         NoteOf::Log { level, text } => EntryForm::Log {
             step,
             level,
-            text: text.to_owned(),
+            text: text.into(),
         },
         NoteOf::Paint { cell, color } => EntryForm::Paint {
             step,
@@ -202,7 +203,7 @@ fn entries(journal: &Journal) -> Vec<EntryForm> {
             step,
             x: cell.x,
             y: cell.y,
-            text: text.to_owned(),
+            text: text.into(),
         },
         NoteOf::Wall { cell, side, belief } => EntryForm::Wall {
             step,
@@ -226,7 +227,10 @@ fn journal(entries: Vec<EntryForm>) -> Journal {
                 step,
                 level,
                 ref text,
-            } => journal.push(step, Note::Log { level, text }),
+            } => {
+                let text = text.as_guest();
+                journal.push(step, Note::Log { level, text });
+            }
             EntryForm::Paint { step, x, y, color } => {
                 let cell = Cell::new(x, y);
                 journal.push(step, Note::Paint { cell, color });
@@ -237,7 +241,7 @@ fn journal(entries: Vec<EntryForm>) -> Journal {
                 y,
                 ref text,
             } => {
-                let cell = Cell::new(x, y);
+                let (cell, text) = (Cell::new(x, y), text.as_guest());
                 journal.push(step, Note::Label { cell, text });
             }
             EntryForm::Wall {

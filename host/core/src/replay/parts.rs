@@ -2,6 +2,7 @@
 
 use super::error::ReplayFileError;
 use crate::game::{Ruleset, Trace};
+use crate::guest_text::GuestText;
 use crate::journal::{Journal, NoteOf};
 use crate::maze::Maze;
 use crate::playback::Playback;
@@ -18,10 +19,10 @@ pub const NAME_CHARS_MAX: usize = 200;
 /// What a replay is made of.
 #[derive(Clone, Debug)]
 pub struct ReplayParts {
-    /// The name of the robot; untrusted text.
-    pub robot: String,
-    /// The name of the maze; untrusted text.
-    pub maze_name: String,
+    /// The name of the robot.
+    pub robot: GuestText,
+    /// The name of the maze.
+    pub maze_name: GuestText,
     /// The maze.
     pub maze: Maze,
     /// The rules.
@@ -77,7 +78,7 @@ pub struct ReplayParts {
 ///     seed: 0,
 /// };
 /// let record = MatchRecord::new(key, result, Usage::default(), &transcript);
-/// let (robot, maze_name) = ("mouse".to_owned(), "hall".to_owned());
+/// let (robot, maze_name) = ("mouse".into(), "hall".into());
 /// let journal = Journal::default();
 /// let parts = ReplayParts { robot, maze_name, maze, rules, record, transcript, journal };
 /// let replay = Replay::new(parts).expect("it fits together");
@@ -114,7 +115,7 @@ impl Replay {
             ..
         } = &parts;
         for (what, name) in [("robot", robot), ("maze", maze_name)] {
-            if name.chars().nth(NAME_CHARS_MAX).is_some() {
+            if name.as_guest().cut(NAME_CHARS_MAX).1 {
                 return Err(ReplayFileError::LongName(what));
             }
         }
@@ -177,8 +178,8 @@ impl Replay {
             ..
         } = &self.parts;
         let builder = DigestBuilder::new("wasmouse.replay.1")
-            .bytes(robot.as_bytes())
-            .bytes(maze_name.as_bytes())
+            .bytes(robot.raw().as_bytes())
+            .bytes(maze_name.raw().as_bytes())
             .bytes(rules.name.as_bytes())
             .digest(&record.key.digest())
             .digest(&record.transcript)
@@ -196,13 +197,13 @@ impl Replay {
             match entry.note {
                 NoteOf::Log { level, text } => builder
                     .numbers(&[step, level as u64])
-                    .bytes(text.as_bytes()),
+                    .bytes(text.raw().as_bytes()),
                 NoteOf::Paint { cell, color } => {
                     builder.numbers(&[step, 4, cell.x.into(), cell.y.into(), color as u64])
                 }
                 NoteOf::Label { cell, text } => builder
                     .numbers(&[step, 5, cell.x.into(), cell.y.into()])
-                    .bytes(text.as_bytes()),
+                    .bytes(text.raw().as_bytes()),
                 NoteOf::Wall { cell, side, belief } => builder.numbers(&[
                     step,
                     6,

@@ -34,7 +34,7 @@ fn with_transcript(maze: Maze, rules: Ruleset, transcript: Transcript) -> Replay
     let mut journal = Journal::default();
     journal.clear(1_000);
     let cell = Cell::new(3, 4);
-    let text = "\u{1b}[31m</script>\u{202e}";
+    let text = "\u{1b}[31m</script>\u{202e}".into();
     journal.push(
         0,
         Note::Log {
@@ -73,8 +73,8 @@ fn with_transcript(maze: Maze, rules: Ruleset, transcript: Transcript) -> Replay
         ..Usage::default()
     };
     ReplayParts {
-        robot: "mouse:3".to_owned(),
-        maze_name: "hall".to_owned(),
+        robot: "mouse:3".into(),
+        maze_name: "hall".into(),
         record: MatchRecord::new(key, result, usage, &transcript),
         maze,
         rules,

@@ -1,5 +1,9 @@
 //! [`Rejection`]: why a file is not admitted as a robot, with what to do about it.
 
+use std::fmt;
+
+use wasmouse_core::{GuestText, guest_text};
+
 use super::componentize::ComponentizeError;
 use super::names::list;
 use super::place::Place;
@@ -11,28 +15,25 @@ use super::version::{COMPATIBLE, CONTROLLER, REBUILD};
 pub(crate) const OUT_OF_PROCESSOR_TIME: &str = "s of processor time";
 
 /// Why a file was not admitted. Says nothing about how the robot would play.
-#[derive(Debug, thiserror::Error)]
+///
+/// It may quote the file. Displayed, it is escaped for a terminal; for anything else there is
+/// [`Rejection::reason`].
+#[derive(Debug)]
 pub enum Rejection {
     /// The file has no bytes.
-    #[error("the file is empty")]
     Empty,
     /// The file is larger than the limits allow.
-    #[error("the file has more than {max} bytes")]
     TooLarge {
         /// The limit in bytes.
         max: u64,
     },
     /// The file is something else than WebAssembly.
-    #[error("the file is not WebAssembly: it looks like {0}")]
     NotWasm(&'static str),
     /// A core module that cannot be turned into a component.
-    #[error(transparent)]
-    CoreModule(#[from] ComponentizeError),
+    CoreModule(ComponentizeError),
     /// A text that cannot be turned into binary form.
-    #[error(transparent)]
-    Text(#[from] TextError),
+    Text(TextError),
     /// The file is malformed.
-    #[error("the component is not valid: {message}{at}", at = byte.map_or(String::new(), at_byte))]
     Invalid {
         /// What is wrong.
         message: String,
@@ -40,12 +41,6 @@ pub enum Rejection {
         byte: Option<u64>,
     },
     /// The file uses a proposal that is off.
-    #[error(
-        "the file uses {name}{at}, a proposal that is off: {reason}",
-        name = .proposal.name,
-        at = .place.as_ref().map_or_else(|| at_byte(*.byte), |place| format!(" in {place}")),
-        reason = .proposal.reason,
-    )]
     Proposal {
         /// Which.
         proposal: &'static Proposal,
@@ -55,32 +50,25 @@ pub enum Rejection {
         place: Option<TextPlace>,
     },
     /// The robot was built for an incompatible version of the interface.
-    #[error("the robot was built for wasmouse:robot@{0}; this host runs {COMPATIBLE}")]
     OtherVersion(String),
     /// The component imports something that is not available to robots.
-    #[error("the component imports `{0}`, which is not available to robots")]
     UnknownImport(String),
     /// The component does not export the controller.
-    #[error("the component does not export `{CONTROLLER}`; it exports {exports}", exports = list(.0))]
     NoController(Vec<String>),
     /// An import or export has a type that differs from the WIT.
-    #[error("the component does not fit the world `robot`: {0}")]
     WrongType(String),
     /// Its compilation took too much, or ended the process that compiled it.
-    #[error("compiling the component {0}")]
     Uncompilable(String),
     /// What a worker process reported.
-    #[error("{reason}")]
     Reported {
         /// As [`Rejection::name`] there.
         name: String,
-        /// The message.
-        reason: String,
+        /// As [`Rejection::reason`] there.
+        reason: GuestText,
         /// As [`Rejection::hint`] there.
         hint: String,
     },
     /// The file exceeds a limit, before anything of it runs.
-    #[error("the file has {found} {what}, and the limit is {max} ({at})")]
     OverLimit {
         /// What is counted, as the words after a number.
         what: &'static str,
@@ -93,7 +81,95 @@ pub enum Rejection {
     },
 }
 
+impl From<ComponentizeError> for Rejection {
+    fn from(error: ComponentizeError) -> Self {
+        Self::CoreModule(error)
+    }
+}
+
+impl From<TextError> for Rejection {
+    fn from(error: TextError) -> Self {
+        Self::Text(error)
+    }
+}
+
+/// The reason, escaped for a terminal.
+impl fmt::Display for Rejection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(&self.reason().escaped(), f)
+    }
+}
+
+impl std::error::Error for Rejection {}
+
+/// A rejection in words, as it is: to make a [`GuestText`] of.
+struct Words<'a>(&'a Rejection);
+
+impl fmt::Display for Words<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Rejection::Empty => write!(f, "the file is empty"),
+            Rejection::TooLarge { max } => write!(f, "the file has more than {max} bytes"),
+            Rejection::NotWasm(what) => {
+                write!(f, "the file is not WebAssembly: it looks like {what}")
+            }
+            Rejection::CoreModule(error) => write!(f, "{error}"),
+            Rejection::Text(error) => write!(f, "{error}"),
+            Rejection::Invalid { message, byte } => {
+                let at = byte.map_or(String::new(), at_byte);
+                write!(f, "the component is not valid: {message}{at}")
+            }
+            Rejection::Proposal {
+                proposal,
+                byte,
+                place,
+            } => {
+                let (name, reason) = (proposal.name, proposal.reason);
+                let at = place
+                    .as_ref()
+                    .map_or_else(|| at_byte(*byte), |place| format!(" in {place}"));
+                write!(
+                    f,
+                    "the file uses {name}{at}, a proposal that is off: {reason}"
+                )
+            }
+            Rejection::OtherVersion(version) => write!(
+                f,
+                "the robot was built for wasmouse:robot@{version}; this host runs {COMPATIBLE}"
+            ),
+            Rejection::UnknownImport(name) => write!(
+                f,
+                "the component imports `{name}`, which is not available to robots"
+            ),
+            Rejection::NoController(exports) => write!(
+                f,
+                "the component does not export `{CONTROLLER}`; it exports {}",
+                list(exports)
+            ),
+            Rejection::WrongType(what) => {
+                write!(f, "the component does not fit the world `robot`: {what}")
+            }
+            Rejection::Uncompilable(reason) => write!(f, "compiling the component {reason}"),
+            Rejection::Reported { reason, .. } => f.write_str(reason.raw()),
+            Rejection::OverLimit {
+                what,
+                found,
+                max,
+                at,
+            } => write!(
+                f,
+                "the file has {found} {what}, and the limit is {max} ({at})"
+            ),
+        }
+    }
+}
+
 impl Rejection {
+    /// Why, as a sentence without its full stop. It may quote the file.
+    pub fn reason(&self) -> GuestText {
+        guest_text!("{}", Words(self))
+    }
+
     /// A short name as in JSON: lowercase letters and hyphens.
     pub fn name(&self) -> &str {
         match self {
@@ -181,11 +257,13 @@ mod tests {
     #[test]
     fn long_lists_of_names_end() {
         let names: Vec<String> = (1..=20).map(|number| format!("e{number}")).collect();
-        let message = Rejection::NoController(names).to_string();
+        let message = Rejection::NoController(names).reason();
         assert!(
-            message.ends_with("it exports `e1`, `e2`, `e3`, `e4`, `e5`, `e6`, `e7`, `e8`, 12 more")
+            message
+                .raw()
+                .ends_with("it exports `e1`, `e2`, `e3`, `e4`, `e5`, `e6`, `e7`, `e8`, 12 more")
         );
-        let message = Rejection::NoController(Vec::new()).to_string();
-        assert!(message.ends_with("it exports nothing"), "{message}");
+        let message = Rejection::NoController(Vec::new()).reason();
+        assert!(message.raw().ends_with("it exports nothing"), "{message:?}");
     }
 }

@@ -12,9 +12,9 @@ pub fn admission(bytes: &[u8]) -> bool {
     let component = match examined.component {
         Ok(component) => component,
         Err(rejection) => {
-            assert!(!rejection.to_string().is_empty());
+            assert!(!rejection.reason().is_empty());
             let not_wasm = matches!(rejection, Rejection::Empty | Rejection::NotWasm(_));
-            assert_eq!(not_wasm, examined.kind.is_none(), "{rejection}");
+            assert_eq!(not_wasm, examined.kind.is_none(), "{rejection:?}");
             return false;
         }
     };

@@ -11,7 +11,7 @@ use std::io::{self, Read as _, Write as _};
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
-use wasmouse_core::Digest;
+use wasmouse_core::{Digest, GuestText};
 use wasmtime::Engine;
 use wasmtime::component::Component;
 
@@ -86,7 +86,7 @@ pub(crate) struct CacheEntry<'a> {
 #[derive(Serialize, Deserialize)]
 struct StoredRejection {
     name: String,
-    reason: String,
+    reason: GuestText,
     hint: String,
 }
 
@@ -136,7 +136,7 @@ impl CacheEntry<'_> {
         }
         let stored = StoredRejection {
             name: rejection.name().to_owned(),
-            reason: rejection.to_string(),
+            reason: rejection.reason(),
             hint: rejection.hint().to_owned(),
         };
         let bytes = postcard::to_stdvec(&stored).expect("texts can be written to memory");

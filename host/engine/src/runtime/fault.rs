@@ -9,6 +9,7 @@ use std::char::DecodeUtf16Error;
 use std::str::Utf8Error;
 
 use wasmouse_core::game::{FaultKind, FuelLimit};
+use wasmouse_core::{GuestText, guest_text};
 use wasmtime::Trap;
 
 use super::guest::Panicked;
@@ -53,12 +54,12 @@ pub(crate) fn classify(
     error: &wasmtime::Error,
     fuel: (FuelLimit, u64),
     copied_max: u64,
-) -> Result<(FaultKind, String), InfrastructureError> {
+) -> Result<(FaultKind, GuestText), InfrastructureError> {
     if let Some(limit) = error.downcast_ref::<LimitExceeded>() {
-        return Ok((limit.fault(), limit.to_string()));
+        return Ok((limit.fault(), limit.to_string().into()));
     }
     if let Some(panicked) = error.downcast_ref::<Panicked>() {
-        return Ok((FaultKind::Panic, panicked.to_string()));
+        return Ok((FaultKind::Panic, guest_text!("panicked: {}", panicked.0)));
     }
     let fault = match error.downcast_ref::<Trap>() {
         Some(Trap::OutOfFuel) => return Ok(out_of_fuel(fuel)),
@@ -72,7 +73,7 @@ pub(crate) fn classify(
 
 /// What a trap says about the robot; `None` for traps of features that robots do not have, and
 /// for wasmtime's assertions about itself.
-fn fault_of_trap(trap: Trap) -> Option<(FaultKind, String)> {
+fn fault_of_trap(trap: Trap) -> Option<(FaultKind, GuestText)> {
     let (kind, detail) = match trap {
         Trap::StackOverflow => (FaultKind::StackOverflow, "overflowed its stack"),
         Trap::UnreachableCodeReached => (
@@ -101,36 +102,36 @@ fn fault_of_trap(trap: Trap) -> Option<(FaultKind, String)> {
         | Trap::UnalignedPointer => return Some(violated(&trap)),
         _ => return None,
     };
-    Some((kind, detail.to_owned()))
+    Some((kind, detail.into()))
 }
 
 /// The violation of the canonical ABI that an error reports, if it is one.
-fn violation(error: &wasmtime::Error, copied_max: u64) -> Option<(FaultKind, String)> {
+fn violation(error: &wasmtime::Error, copied_max: u64) -> Option<(FaultKind, GuestText)> {
     // The cause itself: an engine for backtraces adds context to errors.
     let message = error.root_cause().to_string();
     if message.starts_with(TOO_MUCH_COPIED) {
         let detail = format!("passed more than {copied_max} bytes to the host in one call");
-        return Some((FaultKind::InvalidAction, detail));
+        return Some((FaultKind::InvalidAction, detail.into()));
     }
     let is_text = error.is::<Utf8Error>() || error.is::<DecodeUtf16Error>();
     let is_known = is_text || VIOLATIONS.iter().any(|it| message.starts_with(it));
     is_known.then(|| violated(&message))
 }
 
-fn violated(what: &dyn std::fmt::Display) -> (FaultKind, String) {
-    let detail = format!("violated the interface: {what}");
+fn violated(what: &dyn std::fmt::Display) -> (FaultKind, GuestText) {
+    let detail = guest_text!("violated the interface: {}", what);
     (FaultKind::InvalidAction, detail)
 }
 
 /// The fault of a robot that needs more fuel than that limit, which has that size.
-pub(crate) fn out_of_fuel((limit, max): (FuelLimit, u64)) -> (FaultKind, String) {
+pub(crate) fn out_of_fuel((limit, max): (FuelLimit, u64)) -> (FaultKind, GuestText) {
     let of = match limit {
         FuelLimit::Start => "start",
         FuelLimit::Step => "per-step",
         FuelLimit::Match => "match",
     };
     let detail = format!("exceeded the {of} fuel limit ({})", grouped(max));
-    (FaultKind::OutOfFuel(limit), detail)
+    (FaultKind::OutOfFuel(limit), detail.into())
 }
 
 /// The number with its digits in groups of three: `2,000,000,000`.
@@ -153,7 +154,7 @@ mod tests {
 
     fn sorted(
         error: impl Into<wasmtime::Error>,
-    ) -> Result<(FaultKind, String), InfrastructureError> {
+    ) -> Result<(FaultKind, GuestText), InfrastructureError> {
         classify(&error.into(), (FuelLimit::Step, 7), 100)
     }
 
@@ -182,7 +183,7 @@ mod tests {
             ),
         ] {
             let (found, detail) = sorted(error).expect("a fault of the robot");
-            assert_eq!(found, kind, "{detail}");
+            assert_eq!(found, kind, "{detail:?}");
         }
     }
 

@@ -4,6 +4,8 @@
 use wasmtime::component::{Linker, WasmStr};
 use wasmtime::{Engine, StoreContextMut, Trap};
 
+use wasmouse_core::GuestText;
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::journal::{Belief, Color, Journal, Level, Note};
 use wasmouse_core::maze::Cell;
 
@@ -33,8 +35,8 @@ const PANIC_BYTES_MAX: usize = 2000;
 
 /// The robot reported an error from which it cannot recover: its message, cut.
 #[derive(Debug, thiserror::Error)]
-#[error("panicked: {0}")]
-pub(super) struct Panicked(String);
+#[error("the robot panicked")]
+pub(super) struct Panicked(pub(super) GuestText);
 
 /// The linker with everything that a robot may import.
 pub(super) fn linker(engine: &Engine) -> Result<Linker<Guest>, InfrastructureError> {
@@ -58,9 +60,8 @@ fn add_journal(linker: &mut Linker<Guest>) -> wasmtime::Result<()> {
             let text = text.to_str(&store)?.into_owned();
             charge(&mut store, text.len())?;
             let guest = store.data_mut();
-            guest
-                .journal
-                .push(guest.step, Note::Log { level, text: &text });
+            let text = GuestStr::from(&text);
+            guest.journal.push(guest.step, Note::Log { level, text });
             Ok(())
         },
     )?;
@@ -80,7 +81,8 @@ fn add_journal(linker: &mut Linker<Guest>) -> wasmtime::Result<()> {
         |mut store: StoreContextMut<'_, Guest>, (cell, text): (types::Cell, WasmStr)| {
             let text = text.to_str(&store)?.into_owned();
             charge(&mut store, text.len())?;
-            let note = |cell| Note::Label { cell, text: &text };
+            let text = GuestStr::from(&text);
+            let note = |cell| Note::Label { cell, text };
             store.data_mut().note(cell, note);
             Ok(())
         },
@@ -103,7 +105,7 @@ fn add_journal(linker: &mut Linker<Guest>) -> wasmtime::Result<()> {
         |mut store: StoreContextMut<'_, Guest>, (text,): (WasmStr,)| -> wasmtime::Result<()> {
             let text = text.to_str(&store)?;
             let bytes = text.len();
-            let kept = text[..text.floor_char_boundary(PANIC_BYTES_MAX)].to_owned();
+            let kept = GuestText::from(&text[..text.floor_char_boundary(PANIC_BYTES_MAX)]);
             charge(&mut store, bytes)?;
             Err(Panicked(kept).into())
         },

@@ -13,6 +13,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_bytes::ByteBuf;
 use wasmouse_core::Digest;
+use wasmouse_core::GuestText;
 use wasmouse_core::game::{FaultKind, Ruleset};
 use wasmouse_core::journal::{Belief, Color, Level, Note};
 use wasmouse_core::maze::{Cell, Heading};
@@ -156,9 +157,9 @@ pub(super) struct Details {
 /// An entry of the journal that owns its text.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) enum OwnedNote {
-    Log(Level, String),
+    Log(Level, GuestText),
     Paint(Cell, Color),
-    Label(Cell, String),
+    Label(Cell, GuestText),
     Wall(Cell, Heading, Belief),
 }
 
@@ -168,13 +169,16 @@ impl OwnedNote {
         match self {
             Self::Log(level, text) => Note::Log {
                 level: *level,
-                text,
+                text: text.as_guest(),
             },
             Self::Paint(cell, color) => Note::Paint {
                 cell: *cell,
                 color: *color,
             },
-            Self::Label(cell, text) => Note::Label { cell: *cell, text },
+            Self::Label(cell, text) => Note::Label {
+                cell: *cell,
+                text: text.as_guest(),
+            },
             Self::Wall(cell, side, belief) => Note::Wall {
                 cell: *cell,
                 side: *side,
@@ -187,9 +191,9 @@ impl OwnedNote {
 impl From<Note<'_>> for OwnedNote {
     fn from(note: Note<'_>) -> Self {
         match note {
-            Note::Log { level, text } => Self::Log(level, text.to_owned()),
+            Note::Log { level, text } => Self::Log(level, text.into()),
             Note::Paint { cell, color } => Self::Paint(cell, color),
-            Note::Label { cell, text } => Self::Label(cell, text.to_owned()),
+            Note::Label { cell, text } => Self::Label(cell, text.into()),
             Note::Wall { cell, side, belief } => Self::Wall(cell, side, belief),
         }
     }
@@ -280,7 +284,7 @@ pub(super) struct Backtrace {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct RejectionText {
     pub(super) name: String,
-    pub(super) reason: String,
+    pub(super) reason: GuestText,
     pub(super) hint: String,
 }
 
@@ -288,7 +292,7 @@ impl From<Rejection> for RejectionText {
     fn from(rejection: Rejection) -> Self {
         Self {
             name: rejection.name().to_owned(),
-            reason: rejection.to_string(),
+            reason: rejection.reason(),
             hint: rejection.hint().to_owned(),
         }
     }

@@ -8,14 +8,18 @@ use crate::store::StoreError;
 pub fn print_unplayed(matrix: &ScoreMatrix) {
     for robot in &matrix.robots {
         if let Some(NotAdmitted::Failed(reason)) = &robot.not_admitted {
-            message!("error: `{}` could not be admitted: {}", robot.name, reason);
+            message!(
+                "error: `{}` could not be admitted: {}",
+                robot.name,
+                reason.escaped()
+            );
         }
         for (reason, matches) in &robot.unplayed {
             message!(
                 "`{}`: {} matches were not played: {}",
                 robot.name,
                 matches,
-                reason
+                reason.escaped()
             );
         }
     }

@@ -169,7 +169,7 @@ impl Progress {
         let mut line = String::from("now ");
         for (place, (mean, name)) in order.iter().take(SHOWN_MAX).enumerate() {
             let separator = if place > 0 { ", " } else { "" };
-            let (place, name) = (place + 1, for_terminal(name));
+            let (place, name) = (place + 1, for_terminal(*name));
             write!(line, "{separator}{place}. {name} {mean}").expect("a string takes any text");
         }
         let (faults, unplayed) = (state.faults, state.unplayed);

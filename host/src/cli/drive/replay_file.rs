@@ -57,8 +57,8 @@ fn of(driver: &Driver<'_>, maze: &Maze, rules: &Ruleset) -> Result<Replay, Failu
         seed: 0,
     };
     let parts = ReplayParts {
-        robot: DRIVER.to_owned(),
-        maze_name: driver.name.clone(),
+        robot: DRIVER.into(),
+        maze_name: driver.name.as_str().into(),
         maze: maze.clone(),
         rules: rules.clone(),
         record: MatchRecord::new(key, result, Usage::default(), &transcript),

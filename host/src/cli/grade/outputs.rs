@@ -240,7 +240,7 @@ fn write_folder(
     save(folder.join("grade.tap"), tap(report))?;
     let mut names = BTreeSet::new();
     for grade in report.grades {
-        let own = folder.join(folder_name(&grade.robot, &mut names));
+        let own = folder.join(folder_name(grade.robot.raw(), &mut names));
         fs::create_dir_all(&own).map_err(|error| output::failure(&own, &error))?;
         let alone = report.of(grade);
         save(own.join("grade.json"), json(&alone))?;

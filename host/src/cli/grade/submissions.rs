@@ -77,7 +77,7 @@ fn missing(name: String, failure: Failure) -> Result<Submission, Failure> {
     match failure.exit() {
         Exit::Input | Exit::Robot => Ok(Submission::Missing {
             name,
-            reason: failure.message().as_str().to_owned(),
+            reason: failure.message().as_str().into(),
         }),
         _ => Err(failure),
     }

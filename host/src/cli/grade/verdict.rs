@@ -1,5 +1,7 @@
 //! The exit code of grades, and what the user should know about robots that did not play.
 
+use wasmouse_core::guest_text::GuestStr;
+
 use super::super::exit::Exit;
 use super::super::interrupt;
 use super::super::output::message;
@@ -15,12 +17,12 @@ pub fn exit(grades: &[Grade]) -> Exit {
                 Participation::Rejected { hint, .. } => format!("\n  hint: {hint}"),
                 _ => String::new(),
             };
-            let text = |it: &str| for_workflow(&for_terminal(it));
+            let text = |it: GuestStr<'_>| for_workflow(&for_terminal(it));
             message!(
                 "{} `{}`: {}",
                 grade.participation.name(),
-                text(&grade.robot),
-                text(reason)
+                text(GuestStr::from(&grade.robot)),
+                text(reason.as_guest())
             );
             for line in hint.lines().filter(|it| !it.is_empty()) {
                 message!("{}", line);

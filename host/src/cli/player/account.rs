@@ -3,6 +3,7 @@
 use wasmouse_core::game::{Action, BudgetScope, Event, Sensors, Step, Verdict};
 use wasmouse_core::maze::Turn;
 use wasmouse_core::playback::{MilestoneKind, Playback};
+use wasmouse_core::{GuestText, guest_text};
 
 /// What the step that led to a position did: `speed run, step 212: sensors 4 0 1, turned left, drove
 /// 3`. The readings are those before the step.
@@ -101,12 +102,14 @@ pub fn action_in_words(action: Action) -> String {
 
 /// How the match stands at a position: `212 of 1000 steps used; goal reached in step 57; best path
 /// certain since step 140`. At the end, how it ended.
-pub fn standing(playback: &Playback, position: usize) -> String {
+pub fn standing(playback: &Playback, position: usize) -> GuestText {
     let position = position.min(playback.last());
-    let mut parts = Vec::new();
+    let mut text = GuestText::new();
     if position == playback.last() {
-        parts.push(ending(playback));
+        text.push(&ending(playback));
+        text.push("; ");
     }
+    let mut parts = Vec::new();
     if playback.verdict().score().is_none() || position < playback.last() {
         parts.push(used(playback, position));
     }
@@ -129,10 +132,11 @@ pub fn standing(playback: &Playback, position: usize) -> String {
         }
     }
     parts.push(certainty(playback, position));
-    parts.join("; ")
+    text.push(&parts.join("; "));
+    text
 }
 
-fn ending(playback: &Playback) -> String {
+fn ending(playback: &Playback) -> GuestText {
     match playback.verdict() {
         Verdict::Finished { score } => {
             let (speed, exploration) = (score.speed_steps(), score.exploration_steps());
@@ -141,11 +145,10 @@ fn ending(playback: &Playback) -> String {
                 let (exploration, speed) = (regret.exploration_steps, regret.speed_steps);
                 format!("; regret: {speed} steps of the speed run, {exploration} of exploration")
             });
-            format!("finished, score {score} = {speed} + {exploration}/{divisor}{regret}")
+            format!("finished, score {score} = {speed} + {exploration}/{divisor}{regret}").into()
         }
-        Verdict::BudgetUsedUp { .. } => "budget used up".to_owned(),
-        // What the robot wrote in it is escaped when it is drawn.
-        Verdict::Fault { fault } => format!("fault: {fault}"),
+        Verdict::BudgetUsedUp { .. } => "budget used up".into(),
+        Verdict::Fault { fault } => guest_text!("fault: {}", fault.describe()),
     }
 }
 
@@ -205,6 +208,11 @@ mod tests {
     use super::super::show::tests::{explorer, hostile, lost};
     use super::*;
 
+    fn lines_at(playback: &Playback, at: usize) -> String {
+        let (step, standing) = (step_of(playback, at), standing(playback, at));
+        format!("{step}\n  {}", standing.escaped())
+    }
+
     #[test]
     fn a_finished_match_in_words() {
         let playback = explorer().playback;
@@ -213,7 +221,7 @@ mod tests {
         let positions = [0, 1, 2, goal, reset, playback.last()];
         let lines: Vec<String> = positions
             .iter()
-            .map(|&at| format!("{}\n  {}", step_of(&playback, at), standing(&playback, at)))
+            .map(|&at| lines_at(&playback, at))
             .collect();
         insta::assert_snapshot!("finished", lines.join("\n"));
     }
@@ -224,7 +232,7 @@ mod tests {
         let last = playback.last();
         let lines: Vec<String> = [1, 2, 3, 4, 5, last - 1, last]
             .iter()
-            .map(|&at| format!("{}\n  {}", step_of(&playback, at), standing(&playback, at)))
+            .map(|&at| lines_at(&playback, at))
             .collect();
         insta::assert_snapshot!("unfinished", lines.join("\n"));
     }
@@ -233,6 +241,6 @@ mod tests {
     fn a_fault_in_words() {
         let playback = hostile().playback;
         let text = standing(&playback, playback.last());
-        assert!(text.starts_with("fault: "), "{text}");
+        assert!(text.as_guest().starts_with("fault: "), "{text:?}");
     }
 }

@@ -2,16 +2,17 @@
 
 use std::collections::VecDeque;
 
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::journal::{Journal, Level, Note};
 
-/// A line of a robot's log. The text is untrusted.
+/// A line of a robot's log.
 pub struct Logged<'a> {
     /// 0 in `start`, then the number of the step.
     pub step: u32,
     /// The importance.
     pub level: Level,
-    /// The text, unescaped.
-    pub text: &'a str,
+    /// The text.
+    pub text: GuestStr<'a>,
 }
 
 /// The last lines that were logged until a position, at most so many, in their order.
@@ -44,7 +45,7 @@ mod tests {
         journal.clear(10_000);
         for step in 0..9 {
             let text = format!("line {step}");
-            let text = text.as_str();
+            let text = GuestStr::from(&text);
             journal.push(
                 step,
                 Note::Log {
@@ -55,7 +56,7 @@ mod tests {
         }
         let texts = |position, lines| -> Vec<String> {
             let lines = last(&journal, position, lines);
-            lines.iter().map(|it| it.text.to_owned()).collect()
+            lines.iter().map(|it| it.text.raw().to_owned()).collect()
         };
         assert_eq!(texts(5, 2), ["line 4", "line 5"]);
         assert_eq!(texts(0, 2), ["line 0"]);

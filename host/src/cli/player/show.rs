@@ -1,13 +1,15 @@
 //! [`Show`]: a match to show.
 
+use wasmouse_core::GuestText;
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::journal::Note;
 use wasmouse_core::playback::{MilestoneKind, Playback};
 
-/// A match to show, with the names of robot and maze, which are untrusted and need not be escaped.
+/// A match to show, with the names of robot and maze.
 #[derive(Clone, Debug)]
 pub struct Show {
-    pub(super) robot: String,
-    pub(super) maze: String,
+    pub(super) robot: GuestText,
+    pub(super) maze: GuestText,
     pub(super) playback: Playback,
     /// Whether the robot says what it believes about walls.
     pub(super) has_beliefs: bool,
@@ -17,14 +19,18 @@ pub struct Show {
 
 impl Show {
     /// A match of that robot in that maze.
-    pub fn new(robot: &str, maze: &str, playback: Playback) -> Self {
+    pub fn new<'a>(
+        robot: impl Into<GuestStr<'a>>,
+        maze: impl Into<GuestStr<'a>>,
+        playback: Playback,
+    ) -> Self {
         let has_beliefs = playback
             .journal()
             .entries()
             .any(|entry| matches!(entry.note, Note::Wall { .. }));
         Self {
-            robot: robot.to_owned(),
-            maze: maze.to_owned(),
+            robot: robot.into().into(),
+            maze: maze.into().into(),
             has_beliefs,
             marks: marks(&playback),
             playback,
@@ -144,7 +150,7 @@ pub(super) mod tests {
                 step,
                 Note::Label {
                     cell: stop,
-                    text: &label,
+                    text: GuestStr::from(&label),
                 },
             );
             let color = match at % 3 {
@@ -173,7 +179,13 @@ pub(super) mod tests {
                 } else {
                     Level::Info
                 };
-                journal.push(step, Note::Log { level, text: &text });
+                journal.push(
+                    step,
+                    Note::Log {
+                        level,
+                        text: GuestStr::from(&text),
+                    },
+                );
             }
         }
         Show::new("explorer", "test_maze_01", playback(actions, None, journal))
@@ -205,10 +217,28 @@ pub(super) mod tests {
         let cell = Cell::new(0, 1);
         for step in 0..5 {
             let level = Level::Error;
-            journal.push(step, Note::Log { level, text: &long });
-            journal.push(step, Note::Label { cell, text: evil });
+            journal.push(
+                step,
+                Note::Log {
+                    level,
+                    text: GuestStr::from(&long),
+                },
+            );
+            journal.push(
+                step,
+                Note::Label {
+                    cell,
+                    text: evil.into(),
+                },
+            );
             let cell = Cell::new(200, 255);
-            journal.push(step, Note::Label { cell, text: evil });
+            journal.push(
+                step,
+                Note::Label {
+                    cell,
+                    text: evil.into(),
+                },
+            );
             let (side, belief) = (Heading::Right, Belief::Closed);
             journal.push(step, Note::Wall { cell, side, belief });
         }

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::journal::Level;
 
 use super::super::tui::{Role, Writer, Zoom, draw_maze, overlay};
@@ -194,12 +195,12 @@ fn draw_panel(player: &mut Player, place: usize, panel: &Panel, buffer: &mut Buf
         } else {
             String::new()
         };
-        writer.line(&[
-            (&show.robot, Role::Strong),
-            (" in ", Role::Faint),
-            (&show.maze, Role::Plain),
-            (&what, Role::Faint),
-            (part, Role::Faint),
+        writer.parts([
+            (show.robot.as_guest(), Role::Strong),
+            (" in ".into(), Role::Faint),
+            (show.maze.as_guest(), Role::Plain),
+            (GuestStr::from(&what), Role::Faint),
+            (part.into(), Role::Faint),
         ]);
     }
 }
@@ -239,11 +240,11 @@ fn draw_text(player: &Player, show: &Show, area: Rect, named: bool, buffer: &mut
     let step = account::step_of(&show.playback, position);
     if named {
         // A long name must not hide what happens.
-        let name: String = show.robot.chars().take(20).collect();
-        writer.line(&[
-            (&name, Role::Strong),
-            (": ", Role::Faint),
-            (&step, Role::Plain),
+        let (name, _) = show.robot.as_guest().cut(20);
+        writer.parts([
+            (name, Role::Strong),
+            (": ".into(), Role::Faint),
+            (GuestStr::from(&step), Role::Plain),
         ]);
     } else {
         writer.line(&[(&step, Role::Plain)]);
@@ -259,12 +260,13 @@ fn draw_text(player: &Player, show: &Show, area: Rect, named: bool, buffer: &mut
             Level::Error => ("error: ", Role::Bad),
         };
         // Quotes, so that nobody takes it for a message of the player.
-        writer.line(&[
-            (&format!("step {}: ", line.step), Role::Faint),
-            (mark, role),
-            ("\"", Role::Faint),
+        let step = format!("step {}: ", line.step);
+        writer.parts([
+            (GuestStr::from(&step), Role::Faint),
+            (mark.into(), role),
+            ("\"".into(), Role::Faint),
             (line.text, Role::Plain),
-            ("\"", Role::Faint),
+            ("\"".into(), Role::Faint),
         ]);
     }
 }

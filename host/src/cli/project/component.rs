@@ -33,7 +33,10 @@ pub fn to_component(file: &[u8], source: &Path) -> Result<Vec<u8>, Failure> {
         },
         BinaryKind::Text => match examine(file, &Limits::default()).component {
             Ok(component) => Ok(component.into_owned()),
-            Err(rejection) => Err(failure(rejection.to_string(), rejection.hint())),
+            Err(rejection) => Err(failure(
+                rejection.reason().escaped().to_string(),
+                rejection.hint(),
+            )),
         },
         _ => componentize(file).map_err(|error| failure(error.to_string(), error.hint())),
     }

@@ -4,6 +4,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
+use wasmouse_core::guest_text::GuestStr;
 
 use super::look::{Look, Role};
 use super::plain::{clipped, width};
@@ -35,11 +36,17 @@ impl<'a> Writer<'a> {
 
     /// Writes a line of several parts; what does not fit is cut, and a mark says so.
     pub fn line(&mut self, parts: &[(&str, Role)]) {
+        let parts = parts.iter().map(|&(text, role)| (text.into(), role));
+        self.parts(parts);
+    }
+
+    /// As [`Writer::line`], of parts that may come from outside.
+    pub fn parts<'t>(&mut self, parts: impl IntoIterator<Item = (GuestStr<'t>, Role)>) {
         if self.rows_left() == 0 {
             return;
         }
         let mut column = self.area.x;
-        for &(text, role) in parts {
+        for (text, role) in parts {
             let room = usize::from(self.area.right() - column);
             let shown = clipped(text, self.look.charset, room);
             let style = self.look.style(role);
@@ -60,9 +67,9 @@ impl<'a> Writer<'a> {
     }
 
     /// Writes a text over as many lines as it needs, broken between words, but at most so many.
-    pub fn wrapped(&mut self, text: &str, role: Role, lines_max: u16) {
+    pub fn wrapped<'t>(&mut self, text: impl Into<GuestStr<'t>>, role: Role, lines_max: u16) {
         let room = usize::from(self.area.width);
-        let mut rest = text;
+        let mut rest = text.into().raw();
         for line in 1..=lines_max {
             if rest.is_empty() || self.rows_left() == 0 {
                 return;

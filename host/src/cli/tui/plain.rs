@@ -2,13 +2,14 @@
 //! nothing that a terminal could make wider or narrower than it is counted here.
 
 use unicode_width::UnicodeWidthChar as _;
+use wasmouse_core::guest_text::GuestStr;
 
 use crate::report::escape::for_terminal;
 use crate::report::picture::Charset;
 
 /// The text with every character escaped that could control a terminal, and those replaced that
 /// join with others: combining marks, flags and skin tones. In ASCII, everything else is `?`.
-pub fn plain(text: &str, charset: Charset) -> String {
+pub fn plain<'a>(text: impl Into<GuestStr<'a>>, charset: Charset) -> String {
     for_terminal(text)
         .chars()
         .map(|character| replaced(character, charset))
@@ -17,10 +18,10 @@ pub fn plain(text: &str, charset: Charset) -> String {
 
 /// As [`plain`], and cut at a number of columns; a mark in the last ones says so. However long the
 /// text is, only its beginning is looked at.
-pub fn clipped(text: &str, charset: Charset, columns: usize) -> String {
+pub fn clipped<'a>(text: impl Into<GuestStr<'a>>, charset: Charset, columns: usize) -> String {
     // No character is narrower than a column.
-    let beginning: String = text.chars().take(columns + 1).collect();
-    let text = plain(&beginning, charset);
+    let (beginning, _) = text.into().cut(columns + 1);
+    let text = plain(beginning, charset);
     if width(&text) <= columns {
         return text;
     }

@@ -3,6 +3,8 @@
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, HashMap};
 
+use wasmouse_core::{GuestText, guest_text};
+
 use super::super::matrix::{MatrixRobot, Outcome, ScoreMatrix};
 use super::super::mean::Mean;
 use super::super::plan::NotAdmitted;
@@ -44,7 +46,7 @@ pub enum Submission {
         /// What it is called.
         name: String,
         /// Why.
-        reason: String,
+        reason: GuestText,
     },
 }
 
@@ -67,7 +69,7 @@ pub fn grade(graded: &Graded<'_>, submission: &Submission) -> Grade {
         (_, entry) => entry.map(|it| it.name.clone()).unwrap_or_default(),
     };
     Grade {
-        robot: name,
+        robot: name.into(),
         digest: entry.map(|it| it.digest),
         variant: entry.map_or(0, |it| it.variant),
         is_passed: rubric.mark.is_reached(points_thousandths, points_max)
@@ -95,7 +97,7 @@ impl Graded<'_> {
         match &entry.not_admitted {
             Some(NotAdmitted::Rejected(rejection)) => Participation::Rejected {
                 kind: rejection.name().to_owned(),
-                reason: rejection.to_string(),
+                reason: rejection.reason(),
                 hint: rejection.hint().to_owned(),
             },
             Some(NotAdmitted::Failed(reason)) => Participation::HostFailed(reason.clone()),
@@ -129,10 +131,10 @@ impl Graded<'_> {
         let name_of = |digest| {
             let mut mazes = self.matrix.mazes.iter();
             let maze = mazes.find(|it| it.digest == digest);
-            maze.map_or("?", |it| it.name.as_str()).to_owned()
+            GuestText::from(maze.map_or("?", |it| it.name.as_str()))
         };
         let faults = robot.faults.iter().filter_map(|(kind, fault)| {
-            let message = fault.first.verdict.fault()?.to_string();
+            let message = fault.first.verdict.fault()?.describe();
             Some(FaultLine {
                 kind,
                 count: fault.count,
@@ -170,7 +172,7 @@ impl<'a> Grading<'a> {
         let criterion = &self.graded.rubric.criteria[index];
         let seeds = u64::from(self.graded.matrix.seeds.count);
         let matches = self.graded.scopes[index].len() as u64 * seeds;
-        let without = |status, reason: String| CriterionGrade {
+        let without = |status, reason: GuestText| CriterionGrade {
             status,
             points_thousandths: 0,
             value_thousandths: None,
@@ -181,18 +183,19 @@ impl<'a> Grading<'a> {
             (Participation::Missing(reason), _) => {
                 return without(
                     Status::Failed,
-                    format!("there is no robot to grade: {reason}"),
+                    guest_text!("there is no robot to grade: {}", reason),
                 );
             }
             (Participation::Rejected { reason, .. }, _) => {
-                return without(Status::Failed, format!("the robot is rejected: {reason}"));
+                let reason = guest_text!("the robot is rejected: {}", reason);
+                return without(Status::Failed, reason);
             }
             (Participation::HostFailed(reason), _) => {
-                let reason = format!("the robot could not be admitted: {reason}");
+                let reason = guest_text!("the robot could not be admitted: {}", reason);
                 return without(Status::Skipped, reason);
             }
             (Participation::Admitted | Participation::Withdrawn(_), None) => {
-                return without(Status::Skipped, "the robot is unknown".to_owned());
+                return without(Status::Skipped, "the robot is unknown".into());
             }
             (Participation::Admitted | Participation::Withdrawn(_), Some(robot)) => robot,
         };
@@ -234,7 +237,7 @@ impl<'a> Grading<'a> {
                 },
                 value_thousandths: Some(found.difference.thousandths()),
                 matches,
-                reason: Some(found.reason),
+                reason: Some(found.reason.into()),
             },
             Err(reason) => without(Status::Skipped, reason),
         }
@@ -257,18 +260,21 @@ impl<'a> Grading<'a> {
     }
 
     /// What it means that matches of a robot are missing.
-    fn missing_matches(&self, robot: usize) -> (Status, String) {
+    fn missing_matches(&self, robot: usize) -> (Status, GuestText) {
         let entry = &self.graded.matrix.robots[robot];
         let unplayed = self.graded.unplayed.of(entry.digest, entry.variant);
         match (unplayed.withdrawn, unplayed.failed) {
-            (Some(reason), _) => (Status::Failed, format!("the robot was withdrawn: {reason}")),
+            (Some(reason), _) => (
+                Status::Failed,
+                guest_text!("the robot was withdrawn: {}", reason),
+            ),
             (None, Some(reason)) => (
                 Status::Skipped,
-                format!("not all of its matches could be played: {reason}"),
+                guest_text!("not all of its matches could be played: {}", reason),
             ),
             (None, None) => (
                 Status::Skipped,
-                format!(
+                guest_text!(
                     "stopped before all of its matches were played: {}",
                     self.graded.stopped
                 ),
@@ -276,16 +282,21 @@ impl<'a> Grading<'a> {
         }
     }
 
-    fn measured(&self, index: usize, scope: Scope<'_>, robot: usize) -> Result<Measured, String> {
+    fn measured(
+        &self,
+        index: usize,
+        scope: Scope<'_>,
+        robot: usize,
+    ) -> Result<Measured, GuestText> {
         match &self.graded.rubric.criteria[index].expectation {
             Expectation::Measure(target, _) => scope
                 .measure(*target, robot)
                 .map(Measured::Value)
-                .ok_or_else(|| "the goal cannot be reached in any of the mazes".to_owned()),
+                .ok_or_else(|| "the goal cannot be reached in any of the mazes".into()),
             Expectation::Beats { robot: other, .. } => {
                 let reference = self.reference(other, index)?;
                 let percent = scope.beats_percent(robot, reference);
-                let percent = percent.ok_or_else(|| "there are no matches".to_owned())?;
+                let percent = percent.ok_or("there are no matches")?;
                 Ok(Measured::Value(percent))
             }
             Expectation::Baseline { .. } => {
@@ -297,29 +308,33 @@ impl<'a> Grading<'a> {
                 });
                 let baseline = self.graded.baselines.get(&index);
                 let recorded = baseline.and_then(|it| it.mean_score(places));
-                let recorded =
-                    recorded.ok_or_else(|| "the baseline lacks some of the matches".to_owned())?;
+                let recorded = recorded.ok_or("the baseline lacks some of the matches")?;
                 let ours = scope.mean_score(robot);
-                let ours = ours.ok_or_else(|| "there are no matches".to_owned())?;
+                let ours = ours.ok_or("there are no matches")?;
                 Ok(Measured::Value(ours.minus(recorded)))
             }
             Expectation::NoWorseThan { robot: other } => {
                 let reference = self.reference(other, index)?;
-                significance::compare(scope, (robot, reference)).map(Measured::Significance)
+                let found = significance::compare(scope, (robot, reference));
+                Ok(Measured::Significance(found?))
             }
         }
     }
 
     /// A reference robot that has played all matches of a criterion.
-    fn reference(&self, name: &str, criterion: usize) -> Result<usize, String> {
+    fn reference(&self, name: &str, criterion: usize) -> Result<usize, GuestText> {
         let index = self.graded.references.get(name).copied();
-        let index = index.ok_or_else(|| format!("there is no reference robot `{name}`"))?;
+        let index = index.ok_or_else(|| guest_text!("there is no reference robot `{}`", name))?;
         if let Some(why) = self.graded.participation(index).reason() {
-            return Err(format!("the reference robot `{name}` did not play: {why}"));
+            return Err(guest_text!(
+                "the reference robot `{}` did not play: {}",
+                name,
+                why
+            ));
         }
         if self.complete(criterion, index).is_none() {
             let (_, reason) = self.missing_matches(index);
-            return Err(format!("the reference robot `{name}`: {reason}"));
+            return Err(guest_text!("the reference robot `{}`: {}", name, reason));
         }
         Ok(index)
     }

@@ -1,12 +1,12 @@
 //! [`Grade`]: what a robot earned, criterion by criterion.
 
-use wasmouse_core::Digest;
+use wasmouse_core::{Digest, GuestText};
 
 /// The grade of one robot.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Grade {
     /// What reports call the robot.
-    pub robot: String,
+    pub robot: GuestText,
     /// The digest of its file; `None` when there was no file to read.
     pub digest: Option<Digest>,
     /// The number that chose its mode.
@@ -33,20 +33,20 @@ pub enum Participation {
     /// It did.
     Admitted,
     /// There was nothing to grade: why.
-    Missing(String),
+    Missing(GuestText),
     /// Its file is rejected.
     Rejected {
         /// A short name: lowercase letters and hyphens.
         kind: String,
         /// Why.
-        reason: String,
+        reason: GuestText,
         /// What to do.
         hint: String,
     },
     /// It took too long and was withdrawn: why. It may have played some matches.
-    Withdrawn(String),
+    Withdrawn(GuestText),
     /// The host could not admit it, which says nothing about the robot: why.
-    HostFailed(String),
+    HostFailed(GuestText),
 }
 
 /// Matches of a robot, counted.
@@ -70,11 +70,11 @@ pub struct FaultLine {
     /// How many matches ended so.
     pub count: u64,
     /// The maze of the first of them.
-    pub maze: String,
+    pub maze: GuestText,
     /// The seed of the first of them.
     pub seed: u64,
     /// What happened in it. May quote text of the robot.
-    pub message: String,
+    pub message: GuestText,
 }
 
 /// What a criterion came to.
@@ -89,7 +89,7 @@ pub struct CriterionGrade {
     /// Matches that count for it.
     pub matches: u64,
     /// More about a value, or why there is none. May quote text of the robot.
-    pub reason: Option<String>,
+    pub reason: Option<GuestText>,
 }
 
 /// Whether a criterion is met.
@@ -130,7 +130,7 @@ impl Participation {
     }
 
     /// Why it is what it is; `None` for a robot that took part.
-    pub fn reason(&self) -> Option<&str> {
+    pub fn reason(&self) -> Option<&GuestText> {
         match self {
             Self::Admitted => None,
             Self::Missing(reason)

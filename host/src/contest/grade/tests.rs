@@ -44,7 +44,7 @@ impl Played {
     fn new() -> Self {
         let robot = |name: &str| MatrixRobot::new(name.to_owned(), Digest::of(name.as_bytes()), 0);
         let mut robots = ["good", "bad", "lost", "late"].map(robot).to_vec();
-        robots[2].not_admitted = Some(NotAdmitted::Failed("no worker".to_owned()));
+        robots[2].not_admitted = Some(NotAdmitted::Failed("no worker".into()));
         let seeds = Seeds { first: 0, count: 1 };
         let mut matrix = ScoreMatrix::new(Ruleset::default(), seeds, robots);
         let mazes: Vec<String> = (0..10).map(|it| format!("maze-{it}")).collect();
@@ -154,9 +154,9 @@ fn whatever_happened_each_criterion_has_a_reason() {
         let result = grade.criteria[0].clone();
         (result.status, result.reason.expect("a reason"))
     };
-    let lost = "the robot could not be admitted: no worker".to_owned();
+    let lost = "the robot could not be admitted: no worker".into();
     assert_eq!(result(&played, 2), (Status::Skipped, lost));
-    let late = "stopped before all of its matches were played: interrupted".to_owned();
+    let late = "stopped before all of its matches were played: interrupted".into();
     assert_eq!(result(&played, 3), (Status::Skipped, late));
     let key = wasmouse_core::record::MatchKey {
         engine: Digest::of(b""),
@@ -168,14 +168,14 @@ fn whatever_happened_each_criterion_has_a_reason() {
     };
     let failure = super::super::sink::MatchFailure {
         key,
-        reason: "too slow".to_owned(),
+        reason: "too slow".into(),
     };
     use super::super::sink::Sink as _;
     played.unplayed.failed(&failure).expect("it keeps it");
-    let failed = "not all of its matches could be played: too slow".to_owned();
+    let failed = "not all of its matches could be played: too slow".into();
     assert_eq!(result(&played, 3), (Status::Skipped, failed));
     played.unplayed.withdrawn(&failure).expect("it keeps it");
-    let withdrawn = "the robot was withdrawn: too slow".to_owned();
+    let withdrawn = "the robot was withdrawn: too slow".into();
     assert_eq!(result(&played, 3), (Status::Failed, withdrawn));
     // A reference robot that did not play is nobody's fault.
     let grade = played.grade("beats = \"nobody\"", 0);

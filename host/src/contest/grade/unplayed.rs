@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::io;
 
-use wasmouse_core::Digest;
+use wasmouse_core::{Digest, GuestText};
 
 use super::super::sink::{ContestMatch, MatchFailure, Sink};
 
@@ -11,9 +11,9 @@ use super::super::sink::{ContestMatch, MatchFailure, Sink};
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Unplayed {
     /// The robot was withdrawn.
-    pub withdrawn: Option<String>,
+    pub withdrawn: Option<GuestText>,
     /// The host failed.
-    pub failed: Option<String>,
+    pub failed: Option<GuestText>,
 }
 
 /// A sink that keeps why matches were not played, by robot.

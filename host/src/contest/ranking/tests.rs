@@ -172,7 +172,7 @@ proptest! {
         let mut incomplete = sketch.clone();
         incomplete.mazes[reachable[at % reachable.len()]].cells[0] = None;
         let mut matrix = incomplete.matrix();
-        matrix.robots[0].unplayed.insert("no process".to_owned(), 1);
+        matrix.robots[0].unplayed.insert("no process".into(), 1);
         let others: Vec<usize> = (1..sketch.robots).collect();
         let without = incomplete.matrix_with_order(&others);
         for method in METHODS {

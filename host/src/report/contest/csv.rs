@@ -6,6 +6,7 @@
 //! need names as they are read the JSON instead. Empty fields are values that do not exist.
 
 use csv::{Terminator, Writer, WriterBuilder};
+use wasmouse_core::guest_text::GuestStr;
 
 use super::address::Addresses;
 use super::document::ContestReport;
@@ -184,7 +185,7 @@ impl Csv {
     }
 }
 
-fn text(text: &str) -> String {
+fn text<'a>(text: impl Into<GuestStr<'a>>) -> String {
     let escaped = for_terminal(text);
     // Control characters, which can also begin a formula, are escaped by now. Spaces do not
     // keep every spreadsheet from looking behind them.

@@ -6,9 +6,10 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use wasmouse_core::Digest;
 use wasmouse_core::game::{FuelClass, Ruleset, Score};
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::record::{EngineId, MatchRecord};
+use wasmouse_core::{Digest, GuestText};
 
 use super::document::{Compared, ContestReport};
 use super::view::{Part, View};
@@ -80,22 +81,22 @@ struct MazeEntry<'a> {
 
 #[derive(Serialize)]
 struct RobotEntry<'a> {
-    name: &'a str,
-    author: Option<&'a str>,
+    name: GuestStr<'a>,
+    author: Option<GuestStr<'a>>,
     class: Option<&'a str>,
     digest: Option<Digest>,
     variant: u32,
     state: &'static str,
     rejection: Option<Rejection<'a>>,
-    failure: Option<&'a str>,
-    unplayed: Option<&'a BTreeMap<String, u64>>,
+    failure: Option<&'a GuestText>,
+    unplayed: Option<&'a BTreeMap<GuestText, u64>>,
     faults: Vec<FaultEntry<'a>>,
 }
 
 #[derive(Serialize)]
 struct Rejection<'a> {
     kind: &'a str,
-    reason: Option<String>,
+    reason: Option<GuestText>,
     hint: &'a str,
 }
 
@@ -120,7 +121,7 @@ struct RankingEntry<'a> {
 #[derive(Serialize)]
 struct LineEntry<'a> {
     rank: Option<u32>,
-    robot: &'a str,
+    robot: GuestStr<'a>,
     value_thousandths: Option<i64>,
     matches: u64,
     finished: u64,
@@ -160,8 +161,8 @@ struct RegretEntry {
 
 #[derive(Serialize)]
 struct ComparisonEntry<'a> {
-    first: &'a str,
-    second: &'a str,
+    first: GuestStr<'a>,
+    second: GuestStr<'a>,
     #[serde(flatten)]
     numbers: PairedNumbers,
 }
@@ -239,11 +240,11 @@ fn robot<'a>(view: &'a View<'a>, robot: usize) -> RobotEntry<'a> {
         Some(NotAdmitted::Rejected(it)) => {
             rejection = Some(Rejection {
                 kind: it.name(),
-                reason: are_texts_shown.then(|| it.to_string()),
+                reason: are_texts_shown.then(|| it.reason()),
                 hint: it.hint(),
             });
         }
-        Some(NotAdmitted::Failed(reason)) => failure = Some(reason.as_str()),
+        Some(NotAdmitted::Failed(reason)) => failure = Some(reason),
         None => {}
     }
     RobotEntry {

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use wasmouse_core::guest_text::GuestStr;
+
 use super::document::ContestReport;
 use super::view::{Part, View, state};
 use super::words;
@@ -113,13 +115,13 @@ fn ranking(view: &View<'_>, part: &Part<'_>, line: &mut impl FnMut(&str)) {
 }
 
 /// Text as a code span in a cell of a table.
-fn cell(text: &str) -> String {
+fn cell<'a>(text: impl Into<GuestStr<'a>>) -> String {
     // A backslash before a bar ends the cell after all, so the bar is written by its number there.
     code(text).replace("\\|", "\\u{7c}").replace('|', "\\|")
 }
 
 /// Text as a code span.
-fn code(text: &str) -> String {
+fn code<'a>(text: impl Into<GuestStr<'a>>) -> String {
     let escaped = for_terminal(text);
     if escaped.trim().is_empty() {
         return "(empty)".to_owned();
@@ -132,9 +134,10 @@ fn code(text: &str) -> String {
 }
 
 /// Text whose punctuation means nothing.
-fn plain(text: &str) -> String {
+fn plain<'a>(text: impl Into<GuestStr<'a>>) -> String {
+    let text = for_terminal(text);
     let mut escaped = String::with_capacity(text.len());
-    for character in for_terminal(text).chars() {
+    for character in text.chars() {
         match character {
             // A backslash does not keep these from making mentions and links.
             '@' | ':' => write!(escaped, "&#{};", u32::from(character))

@@ -149,10 +149,10 @@ impl Sample {
         self.matrix.robots[0].class = Some("small".to_owned());
         self.matrix.robots[1].class = Some(format!("class {untrusted}"));
         let reason = format!("too slow: {untrusted}");
-        self.matrix.robots[2].unplayed.insert(reason, 3);
+        self.matrix.robots[2].unplayed.insert(reason.into(), 3);
         let rejection = Rejection::UnknownImport(untrusted.to_owned());
         self.matrix.robots[3].not_admitted = Some(NotAdmitted::Rejected(Arc::new(rejection)));
-        let failed = NotAdmitted::Failed(format!("no process: {untrusted}"));
+        let failed = NotAdmitted::Failed(format!("no process: {untrusted}").into());
         self.matrix.robots[4].not_admitted = Some(failed);
     }
 
@@ -174,7 +174,7 @@ impl Sample {
                     run: Run::Exploration,
                     step: 6,
                     cell: Cell::new(0, 3),
-                    detail: format!("exceeded the fuel limit: {untrusted}"),
+                    detail: format!("exceeded the fuel limit: {untrusted}").into(),
                 },
             },
             steps: Steps {

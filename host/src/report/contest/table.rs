@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use wasmouse_core::guest_text;
+
 use super::document::ContestReport;
 use super::view::{Part, View, state};
 use super::words;
@@ -36,21 +38,17 @@ pub fn table(report: &ContestReport<'_>, layout: Layout) -> String {
     ));
     for compared in view.comparisons() {
         let what = words::comparison(&view, compared);
-        line(&for_terminal(&format!("compared: {what}")));
+        line(&for_terminal(&guest_text!("compared: {}", what)));
     }
     for unranked in view.unranked() {
         let why = words::unranked(&unranked);
-        line(&for_terminal(&format!(
-            "`{}`: {why}",
-            view.name(unranked.robot)
-        )));
+        let name = view.name(unranked.robot);
+        line(&for_terminal(&guest_text!("`{}`: {}", name, why)));
     }
     for fault in view.faults() {
         let what = words::fault(&fault);
-        line(&for_terminal(&format!(
-            "fault: `{}`: {what}",
-            view.name(fault.robot)
-        )));
+        let name = view.name(fault.robot);
+        line(&for_terminal(&guest_text!("fault: `{}`: {}", name, what)));
     }
     for sentence in words::left_out(&view) {
         line(&for_terminal(&sentence));
@@ -73,8 +71,8 @@ fn ranking(view: &View<'_>, part: &Part<'_>, layout: Layout) -> String {
     for line in &part.lines {
         let name = view.name(line.robot);
         let name = match state(view.robot(line.robot), line.state) {
-            Some(state) => format!("{name} ({state})"),
-            None => name.to_owned(),
+            Some(state) => guest_text!("{} ({})", name, state),
+            None => name.into(),
         };
         table.add_row([
             words::rank(line),

@@ -4,8 +4,9 @@
 
 use std::collections::{HashMap, HashSet};
 
-use wasmouse_core::Digest;
 use wasmouse_core::game::Verdict;
+use wasmouse_core::guest_text::GuestStr;
+use wasmouse_core::{Digest, GuestText};
 
 use super::super::faults::explained;
 use super::document::{Compared, ContestReport, PartRanking};
@@ -13,7 +14,7 @@ use crate::contest::{
     Complaint, MatrixMaze, MatrixRobot, NotAdmitted, Ranking, RankingLine, RobotState, ScoreMatrix,
 };
 
-/// What a report shows. Texts are as they are: formats escape them.
+/// What a report shows. Formats escape the texts.
 #[derive(Debug)]
 pub(super) struct View<'a> {
     pub(super) report: &'a ContestReport<'a>,
@@ -22,7 +23,7 @@ pub(super) struct View<'a> {
     /// The mazes that are shown, in the order of the matrix.
     pub(super) mazes: Vec<usize>,
     /// By robot of the matrix, what it is called.
-    names: Vec<String>,
+    names: Vec<GuestText>,
     /// By maze of the matrix.
     is_maze_hidden: Vec<bool>,
     mazes_by_digest: HashMap<Digest, usize>,
@@ -45,9 +46,9 @@ pub(super) struct Unranked<'a> {
     /// One word or two: `rejected`, `withdrawn`.
     pub(super) state: &'static str,
     /// Why, if that may be shown, and for how many matches.
-    pub(super) reasons: Vec<(&'a str, Option<u64>)>,
+    pub(super) reasons: Vec<(&'a GuestText, Option<u64>)>,
     /// The same of a rejection, which makes its texts itself.
-    pub(super) rejection: Option<(String, &'a str)>,
+    pub(super) rejection: Option<(GuestText, &'a str)>,
 }
 
 /// A kind of fault of a robot.
@@ -59,17 +60,17 @@ pub(super) struct FaultLine<'a> {
     /// How many matches the robot has played.
     pub(super) matches: u64,
     /// The first match that ended so; `None` in a hidden maze.
-    pub(super) first: Option<FirstFault>,
+    pub(super) first: Option<FirstFault<'a>>,
     /// What the robot wrote then, if that may be shown.
     pub(super) complaint: Option<&'a Complaint>,
 }
 
 /// Where a fault happened first.
-pub(super) struct FirstFault {
-    pub(super) maze: String,
+pub(super) struct FirstFault<'a> {
+    pub(super) maze: GuestStr<'a>,
     pub(super) seed: u64,
     /// The message with its place, if that may be shown.
-    pub(super) detail: Option<String>,
+    pub(super) detail: Option<GuestText>,
 }
 
 impl<'a> View<'a> {
@@ -107,14 +108,15 @@ impl<'a> View<'a> {
     }
 
     /// What a robot is called.
-    pub(super) fn name(&self, robot: usize) -> &str {
-        &self.names[robot]
+    pub(super) fn name(&self, robot: usize) -> GuestStr<'_> {
+        self.names[robot].as_guest()
     }
 
     /// Who submitted a robot.
-    pub(super) fn author(&self, robot: usize) -> Option<&'a str> {
-        let author = self.robot(robot).author.as_deref();
-        author.filter(|_| !self.report.options.hide_names)
+    pub(super) fn author(&self, robot: usize) -> Option<GuestStr<'a>> {
+        let author = self.robot(robot).author.as_ref();
+        let author = author.filter(|_| !self.report.options.hide_names);
+        author.map(GuestStr::from)
     }
 
     /// The digest of a robot's file.
@@ -192,12 +194,12 @@ impl<'a> View<'a> {
             } = self.robot(robot);
             let (mut reasons, mut rejection) = (Vec::new(), None);
             match not_admitted {
-                Some(NotAdmitted::Rejected(it)) => rejection = Some((it.to_string(), it.hint())),
-                Some(NotAdmitted::Failed(reason)) => reasons.push((reason.as_str(), None)),
+                Some(NotAdmitted::Rejected(it)) => rejection = Some((it.reason(), it.hint())),
+                Some(NotAdmitted::Failed(reason)) => reasons.push((reason, None)),
                 None if unplayed.is_empty() => continue,
                 None => {
                     let each = unplayed.iter();
-                    reasons.extend(each.map(|(reason, &count)| (reason.as_str(), Some(count))));
+                    reasons.extend(each.map(|(reason, &count)| (reason, Some(count))));
                 }
             }
             if self.report.options.hide_names {
@@ -236,7 +238,7 @@ impl<'a> View<'a> {
                     count: fault.count,
                     matches: self.played(robot),
                     first: maze.map(|maze| FirstFault {
-                        maze: self.maze(maze).name.clone(),
+                        maze: GuestStr::from(&self.maze(maze).name),
                         seed: key.seed,
                         detail,
                     }),
@@ -300,10 +302,10 @@ fn shown(report: &ContestReport<'_>) -> Vec<bool> {
 
 /// By robot, what it is called. The beginning of a digest tells contestants which line is theirs
 /// and nobody else.
-fn names(matrix: &ScoreMatrix, are_hidden: bool) -> Vec<String> {
+fn names(matrix: &ScoreMatrix, are_hidden: bool) -> Vec<GuestText> {
     let robots = matrix.robots.iter();
     if !are_hidden {
-        return robots.map(|robot| robot.name.clone()).collect();
+        return robots.map(|robot| robot.name.as_str().into()).collect();
     }
     let mut seen: HashMap<String, u32> = HashMap::new();
     let alias = |robot: &MatrixRobot| {
@@ -314,9 +316,9 @@ fn names(matrix: &ScoreMatrix, are_hidden: bool) -> Vec<String> {
         let count = seen.entry(alias.clone()).or_default();
         *count += 1;
         if *count > 1 {
-            format!("{alias} ({count})")
+            format!("{alias} ({count})").into()
         } else {
-            alias
+            alias.into()
         }
     };
     robots.map(alias).collect()

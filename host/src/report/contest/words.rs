@@ -1,6 +1,7 @@
 //! Words about a contest that several formats share.
 
 use wasmouse_core::game::{BudgetScope, Ruleset};
+use wasmouse_core::{GuestText, guest_text};
 
 use super::document::Compared;
 use super::view::{FaultLine, Part, Unranked, View};
@@ -150,33 +151,35 @@ pub(super) fn missing(view: &View<'_>) -> Option<String> {
 }
 
 /// Why a robot has no rank, as a sentence after its name, with line breaks left out.
-pub(super) fn unranked(unranked: &Unranked<'_>) -> String {
-    let mut text = unranked.state.to_owned();
+pub(super) fn unranked(unranked: &Unranked<'_>) -> GuestText {
+    let mut text = GuestText::from(unranked.state);
     if let Some((reason, hint)) = &unranked.rejection {
-        text.push_str(&format!(": {reason} (hint: {hint})"));
+        text.push(&guest_text!(": {} (hint: {})", reason, hint));
     }
     for (index, (reason, count_of)) in unranked.reasons.iter().enumerate() {
-        text.push_str(if index == 0 { ": " } else { "; " });
-        text.push_str(reason);
+        text.push(if index == 0 { ": " } else { "; " });
+        text.push(*reason);
         if let Some(number) = count_of {
-            text.push_str(&format!(" ({} not played)", count(*number, "match")));
+            text.push(&format!(" ({} not played)", count(*number, "match")));
         }
     }
     text
 }
 
 /// A kind of fault of a robot, as a sentence after its name.
-pub(super) fn fault(line: &FaultLine<'_>) -> String {
-    let mut text = format!(
-        "{} in {} of {} matches",
-        line.kind, line.count, line.matches
-    );
+pub(super) fn fault(line: &FaultLine<'_>) -> GuestText {
+    let (kind, count, matches) = (line.kind, line.count, line.matches);
+    let mut text = guest_text!("{} in {} of {} matches", kind, count, matches);
     match &line.first {
-        None => text.push_str(", first in a hidden maze"),
+        None => text.push(", first in a hidden maze"),
         Some(first) => {
-            text.push_str(&format!(", first in {}, seed {}", first.maze, first.seed));
+            text.push(&guest_text!(
+                ", first in {}, seed {}",
+                first.maze,
+                first.seed
+            ));
             if let Some(detail) = &first.detail {
-                text.push_str(&format!(": {detail}"));
+                text.push(&guest_text!(": {}", detail));
             }
         }
     }
@@ -184,12 +187,14 @@ pub(super) fn fault(line: &FaultLine<'_>) -> String {
 }
 
 /// What came of a comparison, as a sentence.
-pub(super) fn comparison(view: &View<'_>, compared: &Compared) -> String {
+pub(super) fn comparison(view: &View<'_>, compared: &Compared) -> GuestText {
     let it = &compared.comparison;
     let (first, second) = (view.name(compared.first), view.name(compared.second));
     if it.wins + it.losses == 0 {
-        return format!(
-            "{first} and {second} scored equally in every maze ({})",
+        return guest_text!(
+            "{} and {} scored equally in every maze ({})",
+            first,
+            second,
             count(it.mazes, "maze")
         );
     }
@@ -205,35 +210,41 @@ pub(super) fn comparison(view: &View<'_>, compared: &Compared) -> String {
     };
     let (head, interval) = match (it.verdict, difference) {
         (PairedVerdict::Better, Some(difference)) => (
-            format!(
-                "{first} is better than {second} by {} steps",
+            guest_text!(
+                "{} is better than {} by {} steps",
+                first,
+                second,
                 thousandths(-difference)
             ),
             interval.map(|[low, high]| interval_of([-high, -low])),
         ),
         (PairedVerdict::Worse, Some(difference)) => (
-            format!(
-                "{first} is worse than {second} by {} steps",
+            guest_text!(
+                "{} is worse than {} by {} steps",
+                first,
+                second,
                 thousandths(difference)
             ),
             interval.map(interval_of),
         ),
         _ => (
-            format!(
-                "{first} and {second}: undecided, mean difference {}",
+            guest_text!(
+                "{} and {}: undecided, mean difference {}",
+                first,
+                second,
                 mean(it.difference)
             ),
             interval.map(interval_of),
         ),
     };
     let (wins, ties, losses) = (it.wins, it.ties, it.losses);
-    let mut text = format!("{head}{}", interval.unwrap_or_default());
-    text.push_str(&format!(
+    let mut text = guest_text!("{}{}", head, interval.unwrap_or_default());
+    text.push(&format!(
         ", in {}: {wins} better, {ties} equal, {losses} worse",
         count(it.mazes, "maze")
     ));
     if let (PairedVerdict::Undecided, Some(mazes)) = (it.verdict, it.mazes_to_decide) {
-        text.push_str(&format!("; about {mazes} mazes would decide"));
+        text.push(&format!("; about {mazes} mazes would decide"));
     }
     text
 }

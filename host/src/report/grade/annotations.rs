@@ -5,6 +5,9 @@
 
 use std::fmt::Write as _;
 
+use wasmouse_core::guest_text::GuestStr;
+use wasmouse_core::{GuestText, guest_text};
+
 use super::super::escape;
 use super::sentence::{Report, points, sentence, verdict};
 use crate::contest::grade::Status;
@@ -20,7 +23,7 @@ pub fn annotations(report: &Report<'_>) -> String {
                 Status::Failed => "error",
                 Status::Partial | Status::Skipped => "warning",
             };
-            let title = format!("{}: {}", grade.robot, criterion.name);
+            let title = guest_text!("{}: {}", grade.robot, criterion.name);
             line(&mut text, level, &title, &sentence(criterion, result));
         }
         let earned = points(grade.points_thousandths);
@@ -34,18 +37,18 @@ pub fn annotations(report: &Report<'_>) -> String {
     text
 }
 
-fn line(text: &mut String, level: &str, title: &str, message: &str) {
+fn line<'a>(text: &mut String, level: &str, title: &GuestText, message: impl Into<GuestStr<'a>>) {
     let (title, message) = (property(title), data(message));
     writeln!(text, "::{level} title={title}::{message}").expect("writing to a string cannot fail");
 }
 
 /// The message of a command. Line breaks and control characters have been escaped.
-fn data(text: &str) -> String {
+fn data<'a>(text: impl Into<GuestStr<'a>>) -> String {
     old_form(&escape::for_terminal(text).replace('%', "%25"))
 }
 
 /// The value of a property of a command.
-fn property(text: &str) -> String {
+fn property(text: &GuestText) -> String {
     data(text).replace(':', "%3A").replace(',', "%2C")
 }
 

@@ -1,5 +1,8 @@
 //! [`csv`]: one line for each robot, for spreadsheets.
 
+use wasmouse_core::GuestText;
+use wasmouse_core::guest_text::GuestStr;
+
 use super::super::escape::for_terminal;
 use super::sentence::{Report, decimal, points, verdict};
 
@@ -37,8 +40,9 @@ pub fn csv(report: &Report<'_>) -> String {
         ];
         let criteria = grade.criteria.iter();
         let criteria = criteria.map(|it| points(it.points_thousandths));
-        let fault = grade.faults.first().map(|it| it.message.as_str());
-        let reason = grade.participation.reason().or(fault).unwrap_or_default();
+        let fault = grade.faults.first().map(|it| &it.message);
+        let reason = grade.participation.reason().or(fault);
+        let reason = reason.map(GuestText::as_guest).unwrap_or_default();
         let digest = grade.digest.map_or_else(String::new, |it| it.to_string());
         let end = [field(reason), digest];
         lines.push(joined(fields.into_iter().chain(criteria).chain(end)));
@@ -52,7 +56,7 @@ fn joined(fields: impl Iterator<Item = String>) -> String {
 }
 
 /// A text as a field. One that a spreadsheet would compute gets an apostrophe.
-fn field(text: &str) -> String {
+fn field<'a>(text: impl Into<GuestStr<'a>>) -> String {
     let text = for_terminal(text);
     let is_formula = text.starts_with(['=', '+', '-', '@']);
     let apostrophe = if is_formula { "'" } else { "" };

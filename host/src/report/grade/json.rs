@@ -1,6 +1,7 @@
 //! [`json`]: grades as a JSON document, which `host/schema/grade.schema.json` describes.
 
 use serde::Serialize;
+use wasmouse_core::GuestText;
 
 use super::super::json;
 use super::sentence::{Report, sentence};
@@ -45,11 +46,11 @@ struct CriterionEntry<'a> {
 
 #[derive(Serialize)]
 struct RobotEntry<'a> {
-    robot: &'a str,
+    robot: &'a GuestText,
     digest: Option<String>,
     variant: u32,
     participation: &'static str,
-    reason: Option<&'a str>,
+    reason: Option<&'a GuestText>,
     hint: Option<&'a str>,
     complete: bool,
     passed: bool,
@@ -74,16 +75,16 @@ struct ResultEntry<'a> {
     points_thousandths: u64,
     value_thousandths: Option<i64>,
     matches: u64,
-    message: String,
+    message: GuestText,
 }
 
 #[derive(Serialize)]
 struct FaultEntry<'a> {
     kind: &'static str,
     matches: u64,
-    maze: &'a str,
+    maze: &'a GuestText,
     seed: u64,
-    message: &'a str,
+    message: &'a GuestText,
 }
 
 /// The document.

@@ -4,6 +4,8 @@ use quick_junit::{
     NonSuccessKind, Property, Report as Document, TestCase, TestCaseStatus, TestSuite,
 };
 
+use wasmouse_core::guest_text::GuestStr;
+
 use super::super::escape;
 use super::sentence::{Report, faults, points, sentence, verdict};
 use crate::contest::grade::{CriterionGrade, Status};
@@ -59,7 +61,7 @@ fn status(result: &CriterionGrade, points_max: u32, text: &str) -> TestCaseStatu
 }
 
 /// Text without characters that XML does not have: also two that a terminal does not mind.
-fn escaped(text: &str) -> String {
+fn escaped<'a>(text: impl Into<GuestStr<'a>>) -> String {
     let text = escape::for_terminal(text);
     text.replace('\u{fffe}', "\\u{fffe}")
         .replace('\u{ffff}', "\\u{ffff}")

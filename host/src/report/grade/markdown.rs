@@ -1,5 +1,7 @@
 //! [`markdown`]: grades as GitHub's Markdown, for the summary of a job or a comment.
 
+use wasmouse_core::guest_text::GuestStr;
+
 use super::super::escape::for_terminal;
 use super::sentence::{Report, points, sentence, verdict};
 use crate::contest::grade::{Grade, Status};
@@ -97,9 +99,10 @@ fn section(report: &Report<'_>, grade: &Grade) -> String {
 }
 
 /// Text that is no markup, because every character that could be is a numeric entity.
-fn plain(text: &str) -> String {
+fn plain<'a>(text: impl Into<GuestStr<'a>>) -> String {
+    let text = for_terminal(text);
     let mut escaped = String::with_capacity(text.len());
-    for character in for_terminal(text).chars() {
+    for character in text.chars() {
         if character.is_ascii_punctuation() && !matches!(character, ',' | '.' | '%' | ';') {
             escaped += &format!("&#{};", u32::from(character));
         } else {
@@ -110,7 +113,7 @@ fn plain(text: &str) -> String {
 }
 
 /// Text in an element in which GitHub sees neither markup nor mentions of people.
-fn code(text: &str) -> String {
+fn code<'a>(text: impl Into<GuestStr<'a>>) -> String {
     let text = plain(text).replace("www.", "www&#46;");
     format!("<code>{text}</code>")
 }

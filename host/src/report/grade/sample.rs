@@ -1,7 +1,7 @@
 //! Grades for the tests of this folder: every status, and untrusted text.
 
-use wasmouse_core::Digest;
 use wasmouse_core::game::Ruleset;
+use wasmouse_core::{Digest, GuestText};
 
 use super::sentence::Report;
 use crate::contest::Seeds;
@@ -63,10 +63,10 @@ impl Sample {
                 points_thousandths,
                 value_thousandths,
                 matches: 20,
-                reason: reason.map(str::to_owned),
+                reason: reason.map(GuestText::from),
             };
         let grade = |robot: &str, participation, criteria: Vec<CriterionGrade>| Grade {
-            robot: robot.to_owned(),
+            robot: robot.into(),
             digest: Some(Digest::of(robot.as_bytes())),
             variant: 0,
             points_thousandths: criteria.iter().map(|it| it.points_thousandths).sum(),
@@ -83,9 +83,9 @@ impl Sample {
             faults: vec![FaultLine {
                 kind: "panic",
                 count: 1,
-                maze: HOSTILE.to_owned(),
+                maze: HOSTILE.into(),
                 seed: 7,
-                message: HOSTILE.to_owned(),
+                message: HOSTILE.into(),
             }],
         };
         let played = vec![
@@ -97,7 +97,7 @@ impl Sample {
         let rejected = vec![result(Status::Failed, 0, None, Some(HOSTILE)); 4];
         let rejection = Participation::Rejected {
             kind: "unknown-import".to_owned(),
-            reason: HOSTILE.to_owned(),
+            reason: HOSTILE.into(),
             hint: "build it without".to_owned(),
         };
         Self {

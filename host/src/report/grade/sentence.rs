@@ -1,5 +1,7 @@
 //! [`Report`]: what all formats are made of, and what they say about a criterion in words.
 
+use wasmouse_core::{GuestText, guest_text};
+
 use crate::contest::grade::{
     Criterion, CriterionGrade, Expectation, Grade, Missed, Participation, Rubric, Status, Target,
 };
@@ -33,11 +35,11 @@ impl<'a> Report<'a> {
     }
 }
 
-/// What a criterion came to, in words. May quote text of the robot, and is not escaped.
-pub(super) fn sentence(criterion: &Criterion, result: &CriterionGrade) -> String {
-    let (found, reason) = (result.value_thousandths, result.reason.as_deref());
+/// What a criterion came to, in words. May quote text of the robot.
+pub(super) fn sentence(criterion: &Criterion, result: &CriterionGrade) -> GuestText {
+    let (found, reason) = (result.value_thousandths, result.reason.as_ref());
     let Some(found) = found else {
-        return reason.unwrap_or("nothing was measured").to_owned();
+        return reason.map_or_else(|| "nothing was measured".into(), GuestText::clone);
     };
     let matches = result.matches;
     let limit = criterion.expectation.threshold().map_or(0, |it| it.full);
@@ -45,16 +47,17 @@ pub(super) fn sentence(criterion: &Criterion, result: &CriterionGrade) -> String
         Expectation::Measure(target, _) => {
             let measured = measured(*target, found);
             let expected = expected(*target, limit);
-            format!("{measured} in {}; {expected}", counted(matches))
+            guest_text!("{} in {}; {}", measured, counted(matches), expected)
         }
-        Expectation::Beats { robot, .. } => format!(
-            "better than `{robot}` in {} % of {}, where as good counts half; \
+        Expectation::Beats { robot, .. } => guest_text!(
+            "better than `{}` in {} % of {}, where as good counts half; \
              expected at least {} %",
+            robot,
             decimal(found),
             counted(matches),
             decimal(limit)
         ),
-        Expectation::Baseline { .. } => format!(
+        Expectation::Baseline { .. } => guest_text!(
             "a mean score {} than the baseline in {}; expected {}",
             compared(found),
             counted(matches),
@@ -69,25 +72,33 @@ pub(super) fn sentence(criterion: &Criterion, result: &CriterionGrade) -> String
                 Status::Passed => "not significantly worse",
                 _ => "significantly worse",
             };
-            let reason = reason.map_or_else(String::new, |it| format!(": {it}"));
-            format!(
-                "{verdict} than `{robot}` in {}, with a mean score {}{reason}",
+            let reason = reason.map_or_else(GuestText::new, |it| guest_text!(": {}", it));
+            guest_text!(
+                "{} than `{}` in {}, with a mean score {}{}",
+                verdict,
+                robot,
                 counted(matches),
                 match found {
                     0 => "that is the same".to_owned(),
                     _ => format!("that is {}", compared(found)),
-                }
+                },
+                reason
             )
         }
     }
 }
 
-/// The faults of a robot in words, one line for each kind. Not escaped.
-pub(super) fn faults(grade: &Grade) -> impl Iterator<Item = String> {
+/// The faults of a robot in words, one line for each kind.
+pub(super) fn faults(grade: &Grade) -> impl Iterator<Item = GuestText> {
     grade.faults.iter().map(|fault| {
-        format!(
+        guest_text!(
             "{} in {} of {} matches, first in {} with seed {}: {}",
-            fault.kind, fault.count, grade.matches.played, fault.maze, fault.seed, fault.message
+            fault.kind,
+            fault.count,
+            grade.matches.played,
+            fault.maze,
+            fault.seed,
+            fault.message
         )
     })
 }

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use wasmouse_core::{GuestText, guest_text};
+
 use super::super::escape::for_terminal;
 use super::super::json;
 use super::sentence::{Report, points, sentence, verdict};
@@ -14,7 +16,7 @@ use crate::contest::grade::Status;
 pub fn tap(report: &Report<'_>) -> String {
     let mut text = String::new();
     let mut count = 0;
-    let mut point = |is_ok: bool, description: &str, entries: &[(&str, String)]| {
+    let mut point = |is_ok: bool, description: &GuestText, entries: &[(&str, GuestText)]| {
         count += 1;
         let not = if is_ok { "" } else { "not " };
         writeln!(text, "{not}ok {count} - {}", escaped(description))
@@ -32,21 +34,21 @@ pub fn tap(report: &Report<'_>) -> String {
             let earned = points(result.points_thousandths);
             point(
                 result.status == Status::Passed,
-                &format!("{}: {}", grade.robot, criterion.name),
+                &guest_text!("{}: {}", grade.robot, criterion.name),
                 &[
                     ("message", sentence(criterion, result)),
-                    ("status", result.status.name().to_owned()),
-                    ("points", format!("{earned} of {}", criterion.points)),
+                    ("status", result.status.name().into()),
+                    ("points", format!("{earned} of {}", criterion.points).into()),
                 ],
             );
         }
         let earned = points(grade.points_thousandths);
         point(
             grade.is_passed,
-            &format!("{} passes", grade.robot),
+            &guest_text!("{} passes", grade.robot),
             &[
-                ("result", verdict(grade).to_owned()),
-                ("points", format!("{earned} of {}", grade.points_max)),
+                ("result", verdict(grade).into()),
+                ("points", format!("{earned} of {}", grade.points_max).into()),
             ],
         );
     }
@@ -54,6 +56,6 @@ pub fn tap(report: &Report<'_>) -> String {
 }
 
 /// A description of a test point, in which `#` begins no directive.
-fn escaped(text: &str) -> String {
+fn escaped(text: &GuestText) -> String {
     for_terminal(text).replace('\\', "\\\\").replace('#', "\\#")
 }

@@ -4,6 +4,7 @@
 //! drawn as [text](Picture::to_text) or [SVG](Picture::to_svg). Untrusted text in it is made
 //! harmless when it enters ([`Label`]).
 
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::maze::{Area, Cell, Distances, Heading, Maze, Path};
 
 use super::label::{Label, replace_hostile};
@@ -97,7 +98,7 @@ impl Picture {
     }
 
     /// Names what is drawn. Default: `maze`. Any text; renderers escape it.
-    pub fn set_title(&mut self, title: &str) {
+    pub fn set_title<'a>(&mut self, title: impl Into<GuestStr<'a>>) {
         self.title = replace_hostile(title);
     }
 

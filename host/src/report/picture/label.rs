@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use wasmouse_core::guest_text::GuestStr;
+
 /// The most characters of a label that are shown.
 pub const LABEL_CHARS_MAX: usize = 8;
 
@@ -21,8 +23,8 @@ pub struct Label(String);
 
 impl Label {
     /// The label for any text; the empty text is no label.
-    pub fn new(text: &str) -> Self {
-        let shown = text.chars().take(LABEL_CHARS_MAX);
+    pub fn new<'a>(text: impl Into<GuestStr<'a>>) -> Self {
+        let shown = text.into().raw().chars().take(LABEL_CHARS_MAX);
         Self(shown.map(replaced).collect())
     }
 
@@ -44,8 +46,8 @@ impl fmt::Display for Label {
 }
 
 /// A text of any length, with the same characters replaced as in labels.
-pub(in crate::report) fn replace_hostile(text: &str) -> String {
-    text.chars().map(replaced).collect()
+pub(in crate::report) fn replace_hostile<'a>(text: impl Into<GuestStr<'a>>) -> String {
+    text.into().raw().chars().map(replaced).collect()
 }
 
 fn replaced(character: char) -> char {

@@ -2,6 +2,9 @@
 
 use std::fmt::Write as _;
 
+use wasmouse_core::guest_text::GuestStr;
+use wasmouse_core::{GuestText, guest_text};
+
 use crate::report::text_width::cut;
 
 use super::drawing::Picture;
@@ -48,14 +51,14 @@ struct Panel {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Caption {
     /// What is shown.
-    pub name: String,
+    pub name: GuestText,
     /// What happened, in smaller letters.
     pub detail: String,
 }
 
 impl Sheet {
     /// An empty drawing with that many pictures in a row, at least 1. The empty title takes no room.
-    pub fn new(title: &str, columns: usize) -> Self {
+    pub fn new<'a>(title: impl Into<GuestStr<'a>>, columns: usize) -> Self {
         Self {
             title: replace_hostile(title),
             columns: columns.max(1),
@@ -66,10 +69,11 @@ impl Sheet {
     /// Adds a picture.
     pub fn push(&mut self, mut picture: Picture, caption: Caption) {
         let Caption { name, detail } = &caption;
-        let parts = [name.as_str(), detail.as_str()];
-        let parts: Vec<&str> = parts.into_iter().filter(|it| !it.is_empty()).collect();
-        if !parts.is_empty() {
-            picture.set_title(&parts.join(": "));
+        match (name.is_empty(), detail.is_empty()) {
+            (true, true) => {}
+            (true, false) => picture.set_title(detail),
+            (false, true) => picture.set_title(name),
+            (false, false) => picture.set_title(&guest_text!("{}: {}", name, detail)),
         }
         self.panels.push(Panel { picture, caption });
     }
@@ -93,12 +97,9 @@ impl Sheet {
     /// The drawing as an SVG document with a line feed at its end.
     pub fn to_svg(&self, theme: Theme) -> String {
         let (width, title_height) = (self.width(), self.title_height());
-        let has = |part: fn(&Caption) -> &String| {
-            let mut captions = self.panels.iter().map(|panel| &panel.caption);
-            captions.any(|it| !part(it).is_empty())
-        };
-        let name_height = line(NAME_SIZE) * u32::from(has(|it| &it.name));
-        let detail_height = line(DETAIL_SIZE) * u32::from(has(|it| &it.detail));
+        let has = |part: fn(&Caption) -> bool| self.panels.iter().any(|it| part(&it.caption));
+        let name_height = line(NAME_SIZE) * u32::from(has(|it| !it.name.is_empty()));
+        let detail_height = line(DETAIL_SIZE) * u32::from(has(|it| !it.detail.is_empty()));
         let row_height = SIDE + name_height + detail_height + GAP;
         let rows = self.panels.len().div_ceil(self.columns) as u32;
         let height = GAP + title_height + rows * row_height;
@@ -150,7 +151,14 @@ const fn line(size: u32) -> u32 {
 }
 
 /// One line of text whose upper left corner is at `(x, y)`, cut to a width.
-fn text(class: &str, size: u32, (x, y, width): (u32, u32, u32), content: &str, svg: &mut String) {
+fn text<'a>(
+    class: &str,
+    size: u32,
+    (x, y, width): (u32, u32, u32),
+    content: impl Into<GuestStr<'a>>,
+    svg: &mut String,
+) {
+    let content = content.into();
     if content.is_empty() {
         return;
     }

@@ -8,6 +8,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::maze::{Cell, Heading};
 
 use crate::report::text_width::width_of;
@@ -354,7 +355,8 @@ fn write(text: &mut String, part: std::fmt::Arguments<'_>) {
 }
 
 /// The text for use between XML tags and in attributes.
-pub(in crate::report) fn escaped(text: &str) -> String {
+pub(in crate::report) fn escaped<'a>(text: impl Into<GuestStr<'a>>) -> String {
+    let text = text.into().raw();
     let mut safe = String::with_capacity(text.len());
     for character in text.chars() {
         match character {

@@ -158,7 +158,7 @@ struct Entry {
 fn legend(head: &Head<'_>) -> Vec<Entry> {
     let mut names: Vec<String> = Vec::new();
     for name in &head.names {
-        names.push(cut(&replace_hostile(name), hundredths(NAME_MAX, TEXT)));
+        names.push(cut(&replace_hostile(*name), hundredths(NAME_MAX, TEXT)));
     }
     if head.more > 0 {
         names.push(format!("and {} more, not shown", head.more));

@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
-use wasmouse_core::Digest;
 use wasmouse_core::game::Score;
 use wasmouse_core::replay::Replay;
+use wasmouse_core::{Digest, guest_text};
 
 use super::caption;
 use super::overlays::{Overlays, scene};
@@ -43,7 +43,7 @@ pub fn poster(title: &str, shots: &[Shot<'_>], overlays: &Overlays) -> Sheet {
     for shot in shots {
         let last = shot.playback.last();
         let caption = Caption {
-            name: format!("{}: {}", shot.maze, shot.robot),
+            name: guest_text!("{}: {}", shot.maze, shot.robot),
             detail: caption::ending(shot.playback),
         };
         sheet.push(scene(shot.playback, last, overlays), caption);
@@ -53,6 +53,7 @@ pub fn poster(title: &str, shots: &[Shot<'_>], overlays: &Overlays) -> Sheet {
 
 #[cfg(test)]
 mod tests {
+    use wasmouse_core::GuestText;
     use wasmouse_core::game::{Action, Ruleset};
     use wasmouse_core::journal::Journal;
     use wasmouse_core::maze::{Maze, Turn, Walls};
@@ -91,8 +92,8 @@ mod tests {
         };
         let record = MatchRecord::new(key, result, Usage::default(), &transcript);
         Replay::new(ReplayParts {
-            robot: robot.to_owned(),
-            maze_name: format!("open-{dimension}"),
+            robot: robot.into(),
+            maze_name: format!("open-{dimension}").into(),
             maze,
             rules,
             record,
@@ -111,8 +112,8 @@ mod tests {
             match_in(4, "as fast", 2, true),
         ];
         let best = best_of_mazes(&replays);
-        let names: Vec<&str> = best.iter().map(|it| it.parts().robot.as_str()).collect();
-        assert_eq!(names, ["fast"]);
+        let names: Vec<_> = best.iter().map(|it| &it.parts().robot).collect();
+        assert_eq!(names, [&GuestText::from("fast")]);
         assert!(best_of_mazes(&replays[..1]).is_empty());
     }
 }

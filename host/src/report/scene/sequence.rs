@@ -1,5 +1,7 @@
 //! [`sequence`]: moments of one match in a grid, as in the report of Lobato.
 
+use wasmouse_core::guest_text;
+
 use super::caption;
 use super::overlays::{Overlays, scene};
 use super::shot::Shot;
@@ -18,10 +20,10 @@ pub fn sequence(
 ) -> Sheet {
     let positions = positions(count.min(SEQUENCE_MAX), first, last);
     let columns = columns(positions.len());
-    let mut sheet = Sheet::new(&format!("{} in {}", shot.robot, shot.maze), columns);
+    let mut sheet = Sheet::new(&guest_text!("{} in {}", shot.robot, shot.maze), columns);
     for position in positions {
         let caption = Caption {
-            name: caption::step(shot.playback, position),
+            name: caption::step(shot.playback, position).into(),
             detail: String::new(),
         };
         sheet.push(scene(shot.playback, position, overlays), caption);

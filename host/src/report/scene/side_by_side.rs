@@ -1,5 +1,8 @@
 //! [`side_by_side()`]: several matches at one position.
 
+use wasmouse_core::guest_text;
+use wasmouse_core::guest_text::GuestStr;
+
 use super::caption;
 use super::overlays::{Overlays, scene};
 use super::shot::Shot;
@@ -10,13 +13,14 @@ use crate::report::picture::{Caption, Sheet};
 pub fn side_by_side(shots: &[Shot<'_>], position: usize, overlays: &Overlays) -> Sheet {
     let title = match shots {
         [first, _, ..] => first.maze,
-        _ => "",
+        _ => GuestStr::default(),
     };
     let mut sheet = Sheet::new(title, shots.len());
     for shot in shots {
-        let name = match title {
-            "" => format!("{} in {}", shot.robot, shot.maze),
-            _ => shot.robot.to_owned(),
+        let name = if title.is_empty() {
+            guest_text!("{} in {}", shot.robot, shot.maze)
+        } else {
+            shot.robot.into()
         };
         let detail = caption::step(shot.playback, position);
         let picture = scene(shot.playback, position, overlays);

@@ -38,7 +38,7 @@ pub(super) fn playback() -> Playback {
     let mut journal = Journal::default();
     journal.clear(1000);
     let cell = Cell::new(3, 3);
-    let (color, text) = (Color::Red, "<b>\u{202e}");
+    let (color, text) = (Color::Red, "<b>\u{202e}".into());
     journal.push(1, Note::Paint { cell, color });
     journal.push(1, Note::Label { cell, text });
     let (side, belief) = (Heading::Left, Belief::Closed);
@@ -174,8 +174,8 @@ fn captions_say_what_happened() {
 fn posters_name_maze_robot_and_result() {
     let playback = playback();
     let shot = Shot {
-        robot: "flood",
-        maze: "<maze>",
+        robot: "flood".into(),
+        maze: "<maze>".into(),
         playback: &playback,
     };
     let sheet = poster("cup", &[shot; 2], &Overlays::default());
@@ -188,8 +188,8 @@ fn posters_name_maze_robot_and_result() {
 fn films_go_in_lockstep_and_end_with_the_last_picture() {
     let playback = playback();
     let shots = ["a", "b"].map(|robot| Shot {
-        robot,
-        maze: "m",
+        robot: robot.into(),
+        maze: "m".into(),
         playback: &playback,
     });
     let overlays: Overlays = [Overlay::Path].into_iter().collect();

@@ -307,7 +307,7 @@ fn unplayed_matches_and_histories_merge() {
     let contest = contest();
     let failure = |maze, reason: &str| MatchFailure {
         key: contest.keys().key(0, maze, 0),
-        reason: reason.to_owned(),
+        reason: reason.into(),
     };
     let store_with = |mazes: &[usize], failures: &[MatchFailure]| {
         let (folder, mut store) = new_store();
@@ -344,7 +344,7 @@ fn unplayed_matches_and_histories_merge() {
         let [only] = &unplayed[..] else {
             panic!("{unplayed:?}")
         };
-        assert_eq!((only.key, &*only.reason), (failure(3, "a").key, "a"));
+        assert_eq!((only.key, only.reason.raw()), (failure(3, "a").key, "a"));
         let all = store.submissions().expect("read");
         assert_eq!(all, [old.clone(), new.clone(), old.clone()]);
     }

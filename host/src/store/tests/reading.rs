@@ -194,7 +194,7 @@ fn unplayed_matches_are_counted_until_they_are_played() {
     for maze in [2, 0, 1] {
         let failure = MatchFailure {
             key: contest.keys().key(1, maze, 1),
-            reason: format!("reason {}", maze % 2),
+            reason: format!("reason {}", maze % 2).into(),
         };
         match maze {
             1 => sink.failed(&failure).expect("the disk has room"),
@@ -204,13 +204,13 @@ fn unplayed_matches_are_counted_until_they_are_played() {
     // One that was played is not unplayed.
     let failure = MatchFailure {
         key: contest.keys().key(0, 0, 0),
-        reason: "too late".to_owned(),
+        reason: "too late".into(),
     };
     sink.failed(&failure).expect("the disk has room");
     sink.finish().expect("the disk has room");
 
     let unplayed = store.unplayed(&contest.keys()).expect("read");
-    let reasons: Vec<_> = unplayed.iter().map(|it| it.reason.as_str()).collect();
+    let reasons: Vec<_> = unplayed.iter().map(|it| it.reason.raw()).collect();
     assert_eq!(
         reasons,
         ["reason 0", "reason 1", "reason 0"],
@@ -218,10 +218,7 @@ fn unplayed_matches_are_counted_until_they_are_played() {
     );
     let matrix = matrix_of(&store, &contest);
     let counts: Vec<_> = matrix.robots[1].unplayed.clone().into_iter().collect();
-    assert_eq!(
-        counts,
-        [("reason 0".to_owned(), 2), ("reason 1".to_owned(), 1)]
-    );
+    assert_eq!(counts, [("reason 0".into(), 2), ("reason 1".into(), 1)]);
     assert!(matrix.robots[0].unplayed.is_empty());
 
     contest.store(&mut store, KeptTranscripts::None, |_, maze, _| maze < 2);

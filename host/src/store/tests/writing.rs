@@ -132,7 +132,7 @@ fn submission(name: &str, number: u32) -> Submission {
         variant: number,
         rejection: (number > 3).then(|| RejectionEntry {
             kind: "too-large".to_owned(),
-            reason: "a reason".to_owned(),
+            reason: "a reason".into(),
             hint: "a hint".to_owned(),
         }),
     }

@@ -1,27 +1,28 @@
 //! [`About`]: what does not change while a match is watched.
 
 use serde::Serialize;
-use wasmouse_core::Digest;
 use wasmouse_core::game::{GameRules, Verdict};
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::journal::{Belief, Color, Level, Note};
 use wasmouse_core::maze::{Heading, Maze, oracle_steps};
 use wasmouse_core::playback::{MilestoneKind, Playback};
+use wasmouse_core::{Digest, GuestText};
 
 /// Notes of a journal that a page gets, at most.
 pub const NOTES_MAX: usize = 200_000;
 
-/// What a replay file says about its match. Untrusted text.
+/// What a replay file says about its match.
 #[derive(Clone, Debug, Serialize)]
 pub struct Origin {
     /// The name of the robot.
-    pub robot: String,
+    pub robot: GuestText,
     /// The name of the maze.
-    pub maze: String,
+    pub maze: GuestText,
     /// The seed, in decimal: it may be larger than the numbers of JavaScript.
     pub seed: String,
 }
 
-/// What does not change while a match is watched. All text is untrusted.
+/// What does not change while a match is watched.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct About<'a> {
@@ -42,7 +43,7 @@ pub struct About<'a> {
     /// In a few words.
     verdict: String,
     /// The robot's message, if it failed.
-    fault: Option<&'a str>,
+    fault: Option<GuestStr<'a>>,
     score: Option<String>,
     /// Of a robot that knows the maze.
     oracle_score: Option<String>,
@@ -66,9 +67,9 @@ pub struct About<'a> {
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
 enum PageNote<'a> {
-    Log(usize, &'static str, &'static str, &'a str),
+    Log(usize, &'static str, &'static str, GuestStr<'a>),
     Paint(usize, &'static str, u8, u8, &'static str),
-    Label(usize, &'static str, u8, u8, &'a str),
+    Label(usize, &'static str, u8, u8, GuestStr<'a>),
     Wall(usize, &'static str, u8, u8, u8, u8),
 }
 
@@ -97,7 +98,7 @@ impl<'a> About<'a> {
             exploration_steps: steps.exploration,
             speed_steps: steps.speed,
             verdict: verdict.title().into_owned(),
-            fault: verdict.fault().map(|it| it.detail.as_str()),
+            fault: verdict.fault().map(|it| it.detail.as_guest()),
             score: score(verdict),
             oracle_score: rules.oracle_score(maze).map(|it| it.to_string()),
             oracle_speed_steps: oracle(maze, rules),

@@ -132,6 +132,6 @@ impl Sink for MazeSet {
 
     /// A page without some of the matches would mislead.
     fn failed(&mut self, failure: &MatchFailure) -> io::Result<()> {
-        Err(io::Error::other(failure.reason.clone()))
+        Err(io::Error::other(failure.reason.escaped().to_string()))
     }
 }

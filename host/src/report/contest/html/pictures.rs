@@ -11,6 +11,7 @@ use crate::report::contest::picture::MatchPicture;
 use crate::report::contest::playable::Place;
 use crate::report::contest::view::View;
 use crate::report::contest::words;
+use wasmouse_core::guest_text;
 
 /// The best matches; `None` if there is none to show.
 pub(super) fn best(view: &View<'_>, player: Option<&Player>) -> Option<Markup> {
@@ -75,7 +76,7 @@ fn figure(
     } = picture;
     let (name, maze_name) = (view.name(*robot), &view.maze(*maze).name);
     let mut picture = picture.clone();
-    picture.set_title(&format!("{name} in {maze_name}"));
+    picture.set_title(&guest_text!("{} in {}", name, maze_name));
     let played = view.matrix().get(*robot, *maze, *seed);
     let address = (!view.report.options.hide_names)
         .then(|| Addresses::new(view.report).get(*robot, *maze, *seed));

@@ -14,6 +14,7 @@ use flate2::write::GzEncoder;
 use maud::{Markup, PreEscaped, html};
 use serde::Serialize;
 use wasmouse_core::game::{BudgetScope, GameRules};
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::record::{Ending, Transcript};
 
 use crate::report::contest::playable::Place;
@@ -46,7 +47,7 @@ struct Index<'a> {
     version: u32,
     /// Budget, budget scope, longest move, divisor.
     rules: [u32; 4],
-    robots: Vec<&'a str>,
+    robots: Vec<GuestStr<'a>>,
     /// The name, and the length of the identity bytes.
     mazes: Vec<(&'a str, usize)>,
     /// In decimal, because they can be larger than the numbers of a script.
