@@ -74,6 +74,20 @@ fn bombs_are_rejected_for_what_makes_them_one() {
             bombs::stacked_values(490, 200),
             "ms of estimated time to compile a function",
         ),
+        // Each is admitted alone; the first one makes the others take five times as long.
+        (
+            bombs::followed_by(
+                &bombs::stacked_values(20, 2000),
+                &bombs::stacked_values(43, 100),
+                480,
+            ),
+            "ms of estimated time to compile the file",
+        ),
+        (
+            bombs::with_repeated_functions(&bombs::reused_loads(3000, 9), 12)
+                .expect("a core module"),
+            "ms of estimated time to compile the file",
+        ),
         (bombs::empty_functions(1_000_000), "functions"),
         (bombs::long_function(7_600_000), "bytes in a function"),
         (

@@ -10,6 +10,7 @@ pub mod bindings;
 pub mod corpus;
 pub mod costs;
 pub mod dist;
+pub mod emulators;
 pub mod fuzz;
 pub mod languages;
 pub mod manifest;

@@ -5,8 +5,8 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use xtask::{
-    bindings, corpus, costs, dist, fuzz, languages, platforms, reference, repository, robots,
-    validators, verify, wasi, web,
+    bindings, corpus, costs, dist, emulators, fuzz, languages, platforms, reference, repository,
+    robots, validators, verify, wasi, web,
 };
 
 /// Automation for the wasmouse repository.
@@ -79,6 +79,9 @@ enum Command {
     /// Install the tools of languages that tests use: packages of Python and Node into
     /// target/languages, and targets of the Rust compiler with rustup.
     Languages,
+    /// Install the emulators of other processors that tests use into target/emulators: programs of
+    /// a package of Debian.
+    Emulators,
     /// Fuzz a parser of untrusted input; without a target, list the targets.
     Fuzz {
         /// The fuzz target.
@@ -108,6 +111,7 @@ fn main() -> ExitCode {
         Command::Dist(args) => dist::run(&root, &args),
         Command::Validators => validators::run(&root),
         Command::Languages => languages::run(&root),
+        Command::Emulators => emulators::run(&root),
         Command::Fuzz { target, minutes } => fuzz::run(&root, target.as_deref(), minutes),
     };
     match outcome {

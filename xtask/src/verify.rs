@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use crate::step::{Step, target_folder};
-use crate::{corpus, languages, robots, validators, web};
+use crate::{corpus, emulators, languages, robots, validators, web};
 
 /// Where the tests find robots that were built from source just now.
 pub const BUILT_ROBOTS_VARIABLE: &str = "WASMOUSE_BUILT_ROBOTS";
@@ -44,6 +44,7 @@ pub fn run(root: &Path, long: bool) -> Result<(), String> {
     web::verify(root)?;
     let missing = validators::install(root);
     let without_tools = languages::install(root);
+    let without_emulators = emulators::install(root);
     let built = target_folder(root).join("robots");
     robots::build_all(root, &built)?;
     let (ignored, cases): (&[&str], &[OsString]) = if long {
@@ -76,6 +77,13 @@ pub fn run(root: &Path, long: bool) -> Result<(), String> {
             "note: the tools of {} languages could not be installed, and their tests were skipped; \
              each is named above",
             without_tools.len()
+        );
+    }
+    if !without_emulators.is_empty() {
+        eprintln!(
+            "note: {} emulators could not be installed, and the tests that need them were skipped; \
+             each is named above",
+            without_emulators.len()
         );
     }
     eprintln!("all checks passed");

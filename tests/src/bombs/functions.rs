@@ -202,6 +202,21 @@ pub fn stacked_values(values: u32, times: u32) -> Vec<u8> {
     Parts::one(0, body)
 }
 
+/// Loads from as many addresses, added up, and again: nothing is stored between them, so the compiler
+/// takes the values of the first time, and keeps all of them until the end without a local or an
+/// operand.
+pub fn reused_loads(values: u32, times: u32) -> Vec<u8> {
+    let mut body = Vec::new();
+    for _ in 0..times {
+        for value in 0..values {
+            body.extend(load(value));
+            body.extend([I::LocalGet(1), I::I32Add, I::LocalSet(1)]);
+        }
+    }
+    body.extend([I::LocalGet(1), I::GlobalSet(0)]);
+    Parts::one(1, body)
+}
+
 /// A chain of branches, and after it a table of branches to where others lead from its beginning: from
 /// each of its targets the compiler walks up the chain.
 pub fn shallow_joins(joins: u32, chain: u32) -> Vec<u8> {

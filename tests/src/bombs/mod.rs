@@ -6,8 +6,10 @@
 
 mod functions;
 mod modules;
+mod repeated;
 mod types;
 
 pub use functions::*;
 pub use modules::*;
+pub use repeated::with_repeated_functions;
 pub use types::*;

@@ -179,3 +179,16 @@ pub(super) fn parse(text: &str) -> Vec<u8> {
 pub(super) fn count(number: u32) -> usize {
     usize::try_from(number).expect("usize has at least 32 bits")
 }
+
+/// Modules, the second one with each of its functions that many times: what the compiler keeps of the
+/// first one makes those of the second take longer. A function with 800 KB of values on the operand
+/// stack and 480 with 30 KB: 2 minutes, where they take 30 s by themselves.
+pub fn followed_by(first: &[u8], second: &[u8], times: u32) -> Vec<u8> {
+    let mut component = wasm_encoder::Component::new();
+    let second = super::with_repeated_functions(second, times).expect("a core module");
+    for data in [first, &second] {
+        // A core module.
+        component.section(&wasm_encoder::RawSection { id: 1, data });
+    }
+    component.finish()
+}

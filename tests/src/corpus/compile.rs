@@ -87,6 +87,15 @@ fn siblings() -> Vec<Case> {
         over("function-types-of-many-modules", || {
             bombs::function_types(30, 4000, 100)
         }),
+        over("a-function-that-slows-480-others-down", || {
+            let first = bombs::stacked_values(20, 5000);
+            bombs::followed_by(&first, &bombs::stacked_values(43, 100), 480)
+        }),
+        over("values-that-are-loaded-again", || {
+            let module = bombs::reused_loads(3000, 9);
+            let repeated = bombs::with_repeated_functions(&module, 12);
+            beside(&repeated.expect("a core module"))
+        }),
         over("instance-types-that-are-compared", || {
             bombs::compared_instances(100, 10, 10)
         }),

@@ -4,10 +4,10 @@ use std::fmt;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use wasmouse_engine::Limits;
-use wasmtime::Engine;
 
-use super::generators::{GENERATORS, Generator};
-use super::measure::{Cost, copies, cost, engine, estimate, repeated};
+use super::candidate::Candidate;
+use super::generators::GENERATORS;
+use super::measure::{Cost, cost, estimate};
 
 /// Below this the time says nothing, in estimated seconds.
 const ESTIMATE_MIN: f64 = 0.05;
@@ -22,11 +22,16 @@ const LONG_ESTIMATE_MAX: f64 = 2.0;
 /// Changes of each generator before the worst is copied.
 const CHANGES: u32 = 6;
 
+/// Files of two generators that are kept.
+const PAIRS: usize = 12;
+
+/// Files that are copied up to the limits in each round: of one generator, and of two.
+const COPIED: usize = 3;
+
 /// A search for files that take long to compile.
 #[derive(Debug)]
 pub struct Climb {
     limits: Limits,
-    engine: Engine,
     random: u64,
     estimate_max: f64,
     changes: u32,
@@ -83,11 +88,24 @@ impl Worst {
     }
 }
 
-/// What a generator made that took the longest for its estimate.
+/// What took the longest for its estimate.
 struct Best {
-    generator: Generator,
-    parameters: Vec<u32>,
+    candidate: Candidate,
     ratio: f64,
+}
+
+impl Best {
+    const fn new(candidate: Candidate) -> Self {
+        Self {
+            candidate,
+            ratio: 0.0,
+        }
+    }
+
+    /// The worst first.
+    fn sort(all: &mut [Self]) {
+        all.sort_by(|a, b| b.ratio.total_cmp(&a.ratio));
+    }
 }
 
 impl Climb {
@@ -104,10 +122,8 @@ impl Climb {
     }
 
     fn new(random: u64, estimate_max: f64, changes: u32, duration: Option<Duration>) -> Self {
-        let limits = Limits::default();
         Self {
-            engine: engine(&limits),
-            limits,
+            limits: Limits::default(),
             random,
             estimate_max,
             changes,
@@ -125,93 +141,107 @@ impl Climb {
         let mut worst = Worst::default();
         let mut best: Vec<Best> = GENERATORS
             .into_iter()
-            .map(|generator| Best {
-                generator,
-                parameters: generator.start.to_vec(),
-                ratio: 0.0,
-            })
+            .map(|generator| Best::new(Candidate::of(generator)))
             .collect();
+        let mut pairs: Vec<Best> = Vec::new();
         loop {
             for best in &mut best {
                 self.change(best, &mut worst);
-                if self.duration.is_some() {
-                    println!("{worst}");
-                }
+                self.report(&worst);
             }
+            Best::sort(&mut best);
+            self.pair(&best, &mut pairs);
+            for pair in &mut pairs {
+                self.change(pair, &mut worst);
+                self.report(&worst);
+            }
+            Best::sort(&mut pairs);
             let Some(duration) = self.duration else {
                 return worst;
             };
-            best.sort_by(|a, b| b.ratio.total_cmp(&a.ratio));
-            for best in best.iter().take(3) {
-                self.fill(best, &mut worst);
+            for best in best.iter().take(COPIED).chain(pairs.iter().take(COPIED)) {
+                self.fill(&best.candidate, &mut worst);
+                self.report(&worst);
             }
-            println!("{worst}");
             if begin.elapsed() >= duration {
                 return worst;
             }
         }
     }
 
-    /// Changes the parameters of a generator a few times, and keeps what is worse.
+    fn report(&self, worst: &Worst) {
+        if self.duration.is_some() {
+            println!("{worst}");
+        }
+    }
+
+    /// Puts files of two generators in the place of those pairs that take the least for their
+    /// estimate: what a compiler keeps of one function may make others take longer.
+    fn pair(&mut self, best: &[Best], pairs: &mut Vec<Best>) {
+        pairs.truncate(PAIRS / 2);
+        // Not every pair is one of modules.
+        for _ in 0..PAIRS {
+            let [before, after] = [(); 2].map(|()| {
+                let at = usize::try_from(self.next()).unwrap_or(0) % best.len();
+                &best[at].candidate
+            });
+            if pairs.len() < PAIRS
+                && let Some(pair) = before.followed_by(after)
+            {
+                pairs.push(Best::new(pair));
+            }
+        }
+    }
+
+    /// Changes the parameters of a file a few times, and keeps what is worse.
     fn change(&mut self, best: &mut Best, worst: &mut Worst) {
         for change in 0..self.changes {
-            let parameters = match (change, best.ratio > 0.0) {
-                (0, false) => best.parameters.clone(),
-                _ => self.changed(&best.parameters),
-            };
-            let file = (best.generator.make)(&parameters);
-            let Some(estimate) = estimate(&file, &self.limits) else {
+            let mut candidate = best.candidate.clone();
+            if change > 0 || best.ratio > 0.0 {
+                let at = self.next();
+                let eighths = 2 + self.next() % 31;
+                candidate.change(at, eighths);
+            }
+            let Some((file, estimate)) = self.admitted(&candidate) else {
                 continue;
             };
             if estimate > self.estimate_max {
                 continue;
             }
-            let Some(cost) = cost(&file, estimate, &self.engine) else {
+            let Some(cost) = cost(&file, estimate, &self.limits) else {
                 continue;
             };
-            let name = format!("{}{parameters:?}", best.generator.name);
-            worst.note(&name, &cost);
+            worst.note(&candidate.to_string(), &cost);
             let ratio = cost.cpu_seconds / estimate.max(ESTIMATE_MIN);
             if ratio > best.ratio {
-                best.ratio = ratio;
-                best.parameters = parameters;
+                *best = Best { candidate, ratio };
             }
         }
     }
 
-    /// Compiles a file with as much as is admitted of what a generator made: its functions again
-    /// and again, or else copies of its module.
-    fn fill(&self, best: &Best, worst: &mut Worst) {
-        let module = (best.generator.make)(&best.parameters);
-        let is_module = module.get(4) == Some(&1);
-        let Some(one) = estimate(&module, &self.limits).filter(|_| is_module) else {
+    /// Compiles as much as is admitted of a file: the functions of its last module again and
+    /// again, or else copies of that module.
+    fn fill(&self, candidate: &Candidate, worst: &mut Worst) {
+        let estimate = |candidate: &Candidate| Some(self.admitted(candidate)?.1);
+        let once = estimate(&candidate.repeated(1));
+        let twice = estimate(&candidate.repeated(2)).or_else(|| estimate(&candidate.copied(2)));
+        let (Some(once), Some(twice)) = (once, twice) else {
             return;
         };
         let all = f64::from(self.limits.admission.work_ms_max) / 1000.0;
         let most = self.limits.admission.functions_max;
-        let is_within = |&number: &u32| f64::from(number) * one <= all;
+        let is_within =
+            |&number: &u32| once + f64::from(number - 1) * (twice - once).max(1e-6) <= all;
         let mut number = (1..=most).rev().find(is_within).unwrap_or(1);
         while number > 0 {
             let modules = number.min(self.limits.admission.modules_max);
-            let functions = repeated(&module, number).map(|module| copies(&module, 1));
-            let files = [
-                (functions, format!("functions {number} times")),
-                (Some(copies(&module, modules)), format!("{modules} modules")),
-            ];
-            for (file, what) in files {
-                let Some((file, estimate)) = file.and_then(|file| {
-                    let estimate = estimate(&file, &self.limits)?;
-                    Some((file, estimate))
-                }) else {
+            let files = [candidate.repeated(number), candidate.copied(modules)];
+            for candidate in files {
+                let Some((file, estimate)) = self.admitted(&candidate) else {
                     continue;
                 };
-                if let Some(cost) = cost(&file, estimate, &self.engine) {
-                    let Best {
-                        generator,
-                        parameters,
-                        ..
-                    } = best;
-                    worst.note(&format!("{}{parameters:?}, {what}", generator.name), &cost);
+                if let Some(cost) = cost(&file, estimate, &self.limits) {
+                    worst.note(&candidate.to_string(), &cost);
                 }
                 return;
             }
@@ -219,15 +249,11 @@ impl Climb {
         }
     }
 
-    /// The same parameters with one of them up to four times as large or as small.
-    fn changed(&mut self, parameters: &[u32]) -> Vec<u32> {
-        let mut parameters = parameters.to_vec();
-        let length = u32::try_from(parameters.len()).unwrap_or(1);
-        let at = usize::try_from(self.next() % length).unwrap_or(0);
-        let eighths = 2 + self.next() % 31;
-        let value = u64::from(parameters[at]) * u64::from(eighths) / 8;
-        parameters[at] = u32::try_from(value).unwrap_or(u32::MAX).max(1);
-        parameters
+    /// A file and its estimate in seconds, if it can be made and is admitted.
+    fn admitted(&self, candidate: &Candidate) -> Option<(Vec<u8>, f64)> {
+        let file = candidate.file()?;
+        let estimate = estimate(&file, &self.limits)?;
+        Some((file, estimate))
     }
 
     /// A random number (`xorshift64*`).

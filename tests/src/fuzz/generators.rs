@@ -22,7 +22,7 @@ macro_rules! generator {
     };
 }
 
-pub(super) const GENERATORS: [Generator; 34] = [
+pub(super) const GENERATORS: [Generator; 35] = [
     generator!(nested_loops(0 = 20)),
     generator!(nested_blocks(0 = 500)),
     generator!(locals_and_branches(0 = 300, 1 = 1000)),
@@ -31,6 +31,7 @@ pub(super) const GENERATORS: [Generator; 34] = [
     generator!(typed_blocks(0 = 300, 1 = 3)),
     generator!(indirect_calls(0 = 2000)),
     generator!(stacked_values(0 = 100, 1 = 100)),
+    generator!(reused_loads(0 = 50, 1 = 20)),
     generator!(shallow_joins(0 = 300, 1 = 300)),
     generator!(deep_additions(0 = 500, 1 = 500)),
     generator!(late_values(0 = 500, 1 = 8)),

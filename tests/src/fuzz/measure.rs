@@ -4,10 +4,8 @@ use std::fs;
 use std::sync::LazyLock;
 use std::time::Instant;
 
-use wasmouse_engine::admission::BinaryKind;
 use wasmouse_engine::admission::precheck::{Measure, precheck};
 use wasmouse_engine::{Limits, engine_config};
-use wasmparser::{Parser, Payload};
 use wasmtime::Engine;
 use wasmtime::component::Component;
 
@@ -29,13 +27,6 @@ pub(super) fn estimate(file: &[u8], limits: &Limits) -> Option<f64> {
     Some(f64::from(ms) / 1000.0)
 }
 
-/// An engine like that of the host, which compiles on the thread that calls it.
-pub(super) fn engine(limits: &Limits) -> Engine {
-    let mut config = engine_config(limits, 1);
-    config.parallel_compilation(false);
-    Engine::new(&config).expect("address space for one match")
-}
-
 /// Compiles and loads an admitted file; `None` when the compiler rejects it. What takes longer
 /// than its estimate is measured again, and the shorter time counts: on a virtual machine,
 /// processor time includes what other machines take.
@@ -43,23 +34,25 @@ pub(super) fn engine(limits: &Limits) -> Engine {
 /// # Panics
 ///
 /// When the engine refuses to load what it has compiled, which admission has to know before.
-pub(super) fn cost(file: &[u8], estimate: f64, engine: &Engine) -> Option<Cost> {
-    let component = as_component(file);
-    let cost = cost_once(&component, estimate, engine)?;
+pub(super) fn cost(file: &[u8], estimate: f64, limits: &Limits) -> Option<Cost> {
+    let cost = cost_once(file, estimate, limits)?;
     if cost.cpu_seconds <= estimate {
         return Some(cost);
     }
-    let again = cost_once(&component, estimate, engine)?;
+    let again = cost_once(file, estimate, limits)?;
     Some(Cost {
         cpu_seconds: again.cpu_seconds.min(cost.cpu_seconds),
         ..again
     })
 }
 
-fn cost_once(component: &[u8], estimate: f64, engine: &Engine) -> Option<Cost> {
+fn cost_once(component: &[u8], estimate: f64, limits: &Limits) -> Option<Cost> {
+    // One for each file, as in the host: the compiler of an engine keeps tables that make a function
+    // take longer after a large one, also one of another file.
+    let engine = engine(limits);
     reset_peak();
     let begin = cpu_seconds();
-    let compiled = Component::from_binary(engine, component);
+    let compiled = Component::from_binary(&engine, component);
     let cpu_seconds = cpu_seconds() - begin;
     match compiled {
         Ok(_) => Some(Cost {
@@ -75,65 +68,11 @@ fn cost_once(component: &[u8], estimate: f64, engine: &Engine) -> Option<Cost> {
     }
 }
 
-/// A component as it is; a core module in a component that does not instantiate it.
-pub(super) fn as_component(file: &[u8]) -> Vec<u8> {
-    match BinaryKind::of(file) {
-        BinaryKind::CoreModule => copies(file, 1),
-        _ => file.to_vec(),
-    }
-}
-
-/// A component with that many copies of a core module.
-pub(super) fn copies(module: &[u8], number: u32) -> Vec<u8> {
-    let mut component = wasm_encoder::Component::new();
-    for _ in 0..number {
-        component.section(&wasm_encoder::RawSection {
-            // A core module.
-            id: 1,
-            data: module,
-        });
-    }
-    component.finish()
-}
-
-/// The core module with each of its functions that many times, in the place of a small one that
-/// would need more copies than a file may have modules. `None` when it is no core module, or cannot
-/// be read.
-pub(super) fn repeated(module: &[u8], times: u32) -> Option<Vec<u8>> {
-    let mut repeated = wasm_encoder::Module::new();
-    let mut code = wasm_encoder::CodeSection::new();
-    let mut bodies = 0;
-    for payload in Parser::new(0).parse_all(module) {
-        match payload.ok()? {
-            Payload::FunctionSection(section) => {
-                let mut functions = wasm_encoder::FunctionSection::new();
-                for _ in 0..times {
-                    for ty in section.clone() {
-                        functions.function(ty.ok()?);
-                    }
-                }
-                repeated.section(&functions);
-            }
-            Payload::CodeSectionStart { count, .. } => bodies = count.checked_mul(times)?,
-            Payload::CodeSectionEntry(body) => {
-                for _ in 0..times {
-                    code.raw(body.as_bytes());
-                    bodies = bodies.checked_sub(1)?;
-                }
-                if bodies == 0 {
-                    repeated.section(&code);
-                }
-            }
-            payload => {
-                if let Some((id, range)) = payload.as_section() {
-                    let [start, end] = [range.start, range.end].map(usize::try_from);
-                    let data = module.get(start.ok()?..end.ok()?)?;
-                    repeated.section(&wasm_encoder::RawSection { id, data });
-                }
-            }
-        }
-    }
-    Some(repeated.finish())
+/// An engine like that of the host, which compiles on the thread that calls it.
+fn engine(limits: &Limits) -> Engine {
+    let mut config = engine_config(limits, 1);
+    config.parallel_compilation(false);
+    Engine::new(&config).expect("address space for one match")
 }
 
 /// Processor time of this thread so far. Where the system does not say, the time of day has to

@@ -12,7 +12,7 @@ use super::expansion::{Expansion, Requirements};
 use super::function::arity_of;
 use super::items::each;
 use super::measure::{Gauge, Measure};
-use super::module::entry_ns;
+use super::module::{entry_ns, entry_spills};
 use super::parts::Parts;
 
 /// The components that are being read.
@@ -297,6 +297,7 @@ fn core_type(ty: &CoreType<'_>, gauge: &mut Gauge<'_>, byte: u64) -> Result<(), 
             gauge.add(Measure::FileFunctionTypes, 1, byte)?;
             gauge.note(Measure::Values, parameters + results, byte)?;
             gauge.add_work(entry_ns(parameters + results), byte)?;
+            gauge.add_spills(entry_spills(parameters + results), byte)?;
         }
         Ok(())
     };

@@ -11,6 +11,7 @@ use super::cost::Sizes;
 use super::depth::Depth;
 use super::flow::{Construct, Flow};
 use super::measure::{Gauge, Measure};
+use super::pressure::Pressure;
 
 /// What an operator becomes, by its first byte.
 enum Weight {
@@ -29,6 +30,16 @@ impl Weight {
             0x28..=0x3e => Self::Access,
             0x10..=0x15 | 0x25 | 0x26 | 0x3f | 0x40 | 0x8b..=0xbf | 0xfc => Self::Heavy,
             _ => Self::Plain,
+        }
+    }
+
+    /// About the machine instructions that it becomes.
+    const fn instructions(&self) -> u32 {
+        match self {
+            Self::Plain => 1,
+            Self::Access => 2,
+            Self::Heavy => 6,
+            Self::Simd => 10,
         }
     }
 }
@@ -86,6 +97,7 @@ pub(super) struct Functions {
     depth: Depth,
     targets: Vec<u32>,
     regions: Regions,
+    pressure: Pressure,
 }
 
 impl Functions {
@@ -118,12 +130,16 @@ impl Functions {
         self.flow.begin(locals, results);
         self.depth.begin();
         self.regions.begin();
+        self.pressure.begin(locals);
         let mut function = Function {
             validator,
             flow: &mut self.flow,
             depth: &mut self.depth,
             targets: &mut self.targets,
             regions: &mut self.regions,
+            pressure: &mut self.pressure,
+            code: body.as_bytes(),
+            begin: range.start,
             gauge,
             sizes: Sizes {
                 bytes,
@@ -145,6 +161,10 @@ struct Function<'a, 'l> {
     depth: &'a mut Depth,
     targets: &'a mut Vec<u32>,
     regions: &'a mut Regions,
+    pressure: &'a mut Pressure,
+    /// The bytes of its body, which begin where it begins in the file.
+    code: &'a [u8],
+    begin: u64,
     gauge: &'a mut Gauge<'l>,
     sizes: Sizes,
 }
@@ -153,7 +173,8 @@ impl Function<'_, '_> {
     fn operators(&mut self, reader: &mut BinaryReader<'_>) -> Result<(), Rejection> {
         while !reader.eof() {
             let byte = reader.original_position();
-            match Weight::of(reader.clone().read_u8()?) {
+            let weight = Weight::of(reader.clone().read_u8()?);
+            match weight {
                 Weight::Plain => {}
                 Weight::Access => self.sizes.accesses += 1,
                 Weight::Heavy => self.sizes.heavy += 1,
@@ -162,7 +183,13 @@ impl Function<'_, '_> {
             let operator = reader.peek_operator(&self.validator.visitor(byte))?;
             // Before it is validated, which for some takes long.
             self.operator(&operator, byte)?;
+            let height = self.validator.operand_stack_height();
+            let arity = operator.operator_arity(&self.validator).unwrap_or((0, 0));
             reader.visit_operator(&mut self.validator.visitor(byte))??;
+            let [from, to] = [byte, reader.original_position()].map(|it| it - self.begin);
+            let code = self.code.get(index(from)..index(to)).unwrap_or_default();
+            self.pressure
+                .operator(&operator, code, height, arity, weight.instructions());
             let bytes = reader.original_position() - byte;
             self.sizes.deep_bytes += bytes * self.depth.now();
             let operands = u64::from(self.validator.operand_stack_height());
@@ -363,6 +390,7 @@ impl Function<'_, '_> {
     /// Estimates what compiling the function takes.
     fn finish(&mut self, byte: u64) -> Result<(), Rejection> {
         self.sizes.joins = self.flow.count();
+        self.sizes.pressed = self.pressure.finish();
         let carried = self.sizes.joins.carried;
         self.gauge.note(Measure::Carried, carried, byte)?;
         self.sizes.note(self.gauge, byte)
@@ -376,4 +404,8 @@ pub(super) fn arity_of(ty: &CompositeInnerType) -> (u64, u64) {
         CompositeInnerType::Func(ty) => (count(ty.params()), count(ty.results())),
         _ => (0, 0),
     }
+}
+
+fn index(byte: u64) -> usize {
+    usize::try_from(byte).unwrap_or(usize::MAX)
 }

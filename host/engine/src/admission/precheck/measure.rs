@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::super::place::Place;
 use super::super::rejection::Rejection;
+use super::spills::Spills;
 use crate::limits::Limits;
 
 /// Nanoseconds in a millisecond, the unit of estimates.
@@ -401,6 +402,8 @@ pub(super) struct Gauge<'a> {
     found: Measures,
     /// The estimated time for the whole file so far, in ns.
     work_ns: u64,
+    /// What is spilled in all functions so far; its time is not part of `work_ns`.
+    spills: Spills,
     /// The estimated memory for what is kept until all is compiled, in bytes.
     kept_bytes: u64,
     /// The estimated memory for the largest function while it is compiled, in bytes.
@@ -413,6 +416,7 @@ impl<'a> Gauge<'a> {
             limits,
             found: Measures::default(),
             work_ns: 0,
+            spills: Spills::default(),
             kept_bytes: 0,
             largest_bytes: 0,
         }
@@ -482,7 +486,22 @@ impl<'a> Gauge<'a> {
     /// [`Rejection::OverLimit`] when the sum is above the limit.
     pub(super) fn add_work(&mut self, work_ns: u64, byte: u64) -> Result<(), Rejection> {
         self.work_ns = self.work_ns.saturating_add(work_ns);
-        self.note(Measure::Work, self.work_ns / NS_IN_MS, byte)
+        self.note_work(byte)
+    }
+
+    /// Adds what a function spills to the estimated time for the file.
+    ///
+    /// # Errors
+    ///
+    /// [`Rejection::OverLimit`] when the sum is above the limit.
+    pub(super) fn add_spills(&mut self, spills: Spills, byte: u64) -> Result<(), Rejection> {
+        self.spills.add(spills);
+        self.note_work(byte)
+    }
+
+    fn note_work(&mut self, byte: u64) -> Result<(), Rejection> {
+        let work_ns = self.work_ns.saturating_add(self.spills.work_ns());
+        self.note(Measure::Work, work_ns / NS_IN_MS, byte)
     }
 }
 
