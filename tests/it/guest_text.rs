@@ -83,7 +83,7 @@ fn few_files_take_text_out_of_its_type() {
          with the reason: {added:?}"
     );
     let gone: Vec<_> = expected.difference(&found).collect();
-    assert!(gone.is_empty(), "these files do it no more: {gone:?}");
+    assert!(gone.is_empty(), "these files no longer call it: {gone:?}");
 }
 
 fn read(folder: &Path, files: &mut BTreeMap<PathBuf, String>) {
