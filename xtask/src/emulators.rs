@@ -2,11 +2,13 @@
 //!
 //! They are QEMU's user emulators of a pinned package of Debian: older ones (7.2) end a program that
 //! handles a signal as wasmtime does, and with it every robot that traps. `cargo xtask emulators`
-//! downloads the package, compares its SHA-256, and takes only the programs out of it, which are
-//! linked statically, into `target/emulators`; `cargo xtask test` calls it. As with validators, the
-//! tests that need an emulator which cannot be had are skipped with a line on stderr
-//! ([`Emulator::find`]); where [`REQUIRED_VARIABLE`] is set, they fail instead.
+//! downloads the package from the archive that this system takes its packages from, compares its
+//! SHA-256, and takes only the programs out of it, which are linked statically, into
+//! `target/emulators`; `cargo xtask test` calls it. As with validators, the tests that need an
+//! emulator which cannot be had are skipped with a line on stderr ([`Emulator::find`]); where
+//! [`REQUIRED_VARIABLE`] is set, they fail instead.
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::fs::{self, File};
 use std::io;
@@ -26,12 +28,6 @@ const VERSION: &str = "10.0.13+ds-0+deb13u1";
 
 /// The SHA-256 of that package for amd64.
 const SHA256: &str = "ca6ede739327a20ae5a3498230c8a3a9a072c586e131bc6bcc1201eb1725e336";
-
-/// Where packages of Debian are. The first forgets those that were replaced, the second never does.
-const ARCHIVES: [&str; 2] = [
-    "https://deb.debian.org/debian",
-    "https://snapshot.debian.org/archive/debian/20261115T000000Z",
-];
 
 /// The oldest major version that may stand in for the pinned one.
 const MAJOR_MIN: u32 = 10;
@@ -152,16 +148,32 @@ fn download(root: &Path) -> Result<(), String> {
     let folder = folder(root);
     fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
     let package = folder.join("qemu-user.deb");
-    let fetched = ARCHIVES
-        .into_iter()
-        .map(|archive| fetch(archive, &package))
-        .reduce(|first, second| first.or(second))
-        .unwrap_or(Ok(()));
+    let fetched = archives().and_then(|archives| {
+        let mut problem = "`apt-get` knows no archive of packages".to_owned();
+        for archive in archives {
+            match fetch(&archive, &package) {
+                Ok(()) => return Ok(()),
+                Err(error) => problem = error,
+            }
+        }
+        Err(problem)
+    });
     let unpacked = fetched.and_then(|()| unpack(&package, &folder));
     // It may not be there.
     let _ = fs::remove_file(&package);
     unpacked?;
     fs::write(stamp(root), SHA256).map_err(|error| error.to_string())
+}
+
+/// Where this system takes its packages from: the archive has those of later releases of Debian, too.
+fn archives() -> Result<BTreeSet<String>, String> {
+    let output = Command::new("apt-get")
+        .args(["indextargets", "--format", "$(REPO_URI)"])
+        .output()
+        .map_err(|error| format!("`apt-get` cannot run: {error}"))?;
+    let lines = String::from_utf8_lossy(&output.stdout).into_owned();
+    let lines = lines.lines().map(|line| line.trim_end_matches('/'));
+    Ok(lines.map(str::to_owned).collect())
 }
 
 fn fetch(archive: &str, package: &Path) -> Result<(), String> {
