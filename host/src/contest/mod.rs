@@ -56,7 +56,7 @@ pub use results::{
     ContestInfo, MazeEntry, Names, RESULTS_VERSION, RejectionEntry, Results, RobotEntry, Summary,
     SummaryBuilder, WithdrawalEntry, records_digest,
 };
-pub use run::{Options, RunError, default_robot_time, run};
+pub use run::{OnEnded, Options, RunError, default_robot_time, run};
 pub use scoring::{Method, Scoring, TIE_BREAKS_DEFAULT, TieBreak, worst_score_steps};
 pub use sink::{ContestMatch, Ended, MatchFailure, RecordList, Sink, Tee};
 pub use standings::{Standing, Standings, StandingsBuilder};

@@ -51,6 +51,9 @@ pub const fn default_robot_time(matches: u64, limits: &SandboxLimits) -> Duratio
     Duration::from_secs(seconds.saturating_mul(time_factor(limits)))
 }
 
+/// Takes a match that has ended, with its maze. Both are shared, so keeping them copies nothing.
+pub type OnEnded<'a> = dyn Fn(&Arc<ContestMaze>, &Arc<Ended>) -> io::Result<()> + Sync + 'a;
+
 /// How a contest is run.
 pub struct Options<'a> {
     /// Threads. Range: at least 1.
@@ -61,8 +64,8 @@ pub struct Options<'a> {
     pub wanted: &'a (dyn Fn(&MatchKey) -> bool + Sync),
     /// Called for every match as it ends, with its maze: from any thread and in any order, so that
     /// what has ended can be stored or shown before matches that come first in the plan. The
-    /// contest ends when it fails. Both are shared with the run, so keeping them copies nothing.
-    pub ended: &'a (dyn Fn(&Arc<ContestMaze>, &Arc<Ended>) -> io::Result<()> + Sync),
+    /// contest ends when it fails.
+    pub ended: &'a OnEnded<'a>,
     /// Processor time that each robot may use, in all its variants together; `None` is
     /// [`default_robot_time`].
     pub robot_time: Option<Duration>,
