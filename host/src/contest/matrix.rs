@@ -51,6 +51,8 @@ pub struct MatrixRobot {
     pub faults: BTreeMap<&'static str, MatrixFault>,
     /// Matches that were not played, by reason: the host failed, or the robot was withdrawn.
     pub unplayed: BTreeMap<GuestText, u64>,
+    /// How many of those the host failed to play.
+    pub failed: u64,
 }
 
 /// The faults of one kind of one robot.
@@ -153,6 +155,7 @@ impl MatrixRobot {
             not_admitted: None,
             faults: BTreeMap::new(),
             unplayed: BTreeMap::new(),
+            failed: 0,
         }
     }
 
@@ -261,11 +264,12 @@ impl MatrixBuilder {
         self.matrix
     }
 
-    fn unplayed(&mut self, failure: &MatchFailure) {
+    fn unplayed(&mut self, failure: &MatchFailure, has_failed: bool) {
         let key = &failure.key;
         let robots = self.matrix.robots.iter_mut();
         for robot in robots.filter(|it| it.digest == key.robot && it.variant == key.variant) {
             *robot.unplayed.entry(failure.reason.clone()).or_default() += 1;
+            robot.failed += u64::from(has_failed);
         }
     }
 }
@@ -295,12 +299,12 @@ impl Sink for MatrixBuilder {
     }
 
     fn failed(&mut self, failure: &MatchFailure) -> io::Result<()> {
-        self.unplayed(failure);
+        self.unplayed(failure, true);
         Ok(())
     }
 
     fn withdrawn(&mut self, failure: &MatchFailure) -> io::Result<()> {
-        self.unplayed(failure);
+        self.unplayed(failure, false);
         Ok(())
     }
 }

@@ -3,16 +3,16 @@
 use std::collections::{BTreeMap, HashMap};
 
 use rusqlite::{Connection, Row, params};
+use wasmouse_core::Digest;
 use wasmouse_core::game::{Ruleset, Steps};
 use wasmouse_core::record::MatchRecord;
-use wasmouse_core::{Digest, GuestText};
 
 use super::columns::{self, BUDGET_USED_UP, FAULT, FINISHED, GOAL_REACHED};
 use super::error::{StoreError, StoreErrorKind};
 use super::ids::{self, Address, Table, digest_at};
 use super::keys::{MatchKeys, positions};
 use super::open::Store;
-use super::unplayed;
+use super::unplayed::{self, Cause};
 use super::writer::find_record;
 use crate::contest::{
     MatchScore, MatrixFault, MatrixMaze, MatrixRobot, MazeSet, Outcome, ScoreMatrix, Seeds,
@@ -196,14 +196,14 @@ impl Filling<'_> {
             let fault = MatrixFault { count, first };
             matrix.robots[robot].faults.insert(kind, fault);
         }
-        let mut reasons: BTreeMap<GuestText, u64> = BTreeMap::new();
-        unplayed::each(self.connection, &keys, |_, maze, seed, _, reason| {
+        let robot = &mut matrix.robots[robot];
+        unplayed::each(self.connection, &keys, |_, maze, seed, cause, reason| {
             let seed = keys.seed_position(seed.cast_unsigned());
             if self.mazes.contains_key(&maze) && seed.is_some() {
-                *reasons.entry(reason.into()).or_default() += 1;
+                *robot.unplayed.entry(reason.into()).or_default() += 1;
+                robot.failed += u64::from(cause == Cause::Failed);
             }
         })?;
-        matrix.robots[robot].unplayed = reasons;
         Ok(())
     }
 

@@ -241,20 +241,6 @@ impl PlannedContest {
         Ok(self.robots.iter().map(rejection).collect())
     }
 
-    /// Whether the host could not play some matches.
-    ///
-    /// # Errors
-    ///
-    /// When the store cannot be read.
-    pub fn has_failures(&self, store: &Store) -> Result<bool, Failure> {
-        let digests = self.digests(store).map_err(store_failure)?;
-        let known: Vec<Digest> = digests.into_iter().flatten().collect();
-        let players = self.players();
-        let unplayed = store.unplayed(&self.keys(&players, &known));
-        let unplayed = unplayed.map_err(store_failure)?;
-        Ok(unplayed.iter().any(|it| it.cause == Cause::Failed))
-    }
-
     /// The results of the contest by now. `not_admitted` says why robots play no match, by their
     /// indices.
     ///
