@@ -1,5 +1,9 @@
 //! [`Store::content_digest`]: a store in one line. [`Store::seal`]: the same, written into it.
 
+use std::mem;
+use std::sync::mpsc::{Receiver, sync_channel};
+use std::thread;
+
 use rusqlite::{Connection, Row, params};
 use wasmouse_core::game::Verdict;
 use wasmouse_core::record::MatchRecord;
@@ -173,37 +177,77 @@ fn transcripts(connection: &Connection, catalog: &Catalog) -> Result<Vec<Digest>
     Ok(digests)
 }
 
+/// Records of a player that are hashed together.
+type Group = (Address, Vec<MatchRecord>);
+
+/// The most records of a [`Group`].
+const GROUP_MAX: usize = 1024;
+
+/// Groups that wait to be hashed, at most.
+const GROUPS_WAITING: usize = 4;
+
+/// The digests of the players. Reading the records takes as long as hashing them, so one thread
+/// does this and one does that.
 fn matches(connection: &Connection, catalog: &Catalog) -> Result<Vec<Digest>, StoreErrorKind> {
+    thread::scope(|scope| {
+        let (sender, groups) = sync_channel(GROUPS_WAITING);
+        let hashing = thread::Builder::new().name("digest".to_owned());
+        let hashing = hashing.spawn_scoped(scope, move || players(&groups, catalog))?;
+        let mut group: Option<Group> = None;
+        // Whoever does not receive has failed, and says why when it is joined.
+        let send = |group| drop(sender.send(group));
+        let read = each_record(connection, catalog, |at, record| {
+            match &mut group {
+                Some((player, records))
+                    if player.is_same_player(at) && records.len() < GROUP_MAX =>
+                {
+                    records.push(record);
+                }
+                _ => {
+                    if let Some(full) = group.replace((*at, vec![record])) {
+                        send(full);
+                    }
+                }
+            }
+            Ok::<_, StoreErrorKind>(())
+        });
+        if let Some(last) = group {
+            send(last);
+        }
+        drop(sender);
+        let players = hashing.join();
+        read?;
+        players.unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    })
+}
+
+/// The digests of the players of some groups, in which those of a player follow each other.
+fn players(groups: &Receiver<Group>, catalog: &Catalog) -> Result<Vec<Digest>, StoreErrorKind> {
     let mut players = Vec::new();
     let mut player: Option<Address> = None;
-    let mut records = Vec::new();
-    let mut end = |at: &Address, records: &mut Vec<Digest>| -> Result<(), StoreErrorKind> {
+    let mut digests = Vec::new();
+    let mut end = |at: &Address, digests: &mut Vec<Digest>| -> Result<(), StoreErrorKind> {
         let key = catalog.key(at)?;
         let builder = DigestBuilder::new("wasmouse.store.player.1")
             .digest(&key.engine)
             .digest(&key.rules)
             .digest(&key.robot)
             .numbers(&[key.variant.into()])
-            .digest(&list(std::mem::take(records)));
+            .digest(&list(mem::take(digests)));
         players.push(builder.finish());
         Ok(())
     };
-    each_record(
-        connection,
-        catalog,
-        |at, record| -> Result<(), StoreErrorKind> {
-            if let Some(last) = &player
-                && !last.is_same_player(at)
-            {
-                end(last, &mut records)?;
-            }
-            player = Some(*at);
-            records.push(record_digest(&record));
-            Ok(())
-        },
-    )?;
+    for (at, records) in groups {
+        if let Some(last) = &player
+            && !last.is_same_player(&at)
+        {
+            end(last, &mut digests)?;
+        }
+        player = Some(at);
+        digests.extend(records.iter().map(record_digest));
+    }
     if let Some(last) = &player {
-        end(last, &mut records)?;
+        end(last, &mut digests)?;
     }
     Ok(players)
 }
@@ -257,4 +301,41 @@ pub(super) fn seal_holds(connection: &Connection) -> Result<Option<bool>, StoreE
         return Ok(None);
     };
     Ok(Some(content_digest(connection)? == sealed))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::sample::{Contest, new_store};
+    use super::super::{KeptTranscripts, StoreError};
+    use super::*;
+    use crate::contest::Seeds;
+
+    #[test]
+    fn a_player_has_one_digest_however_many_groups_are_hashed() -> Result<(), StoreError> {
+        let seeds = Seeds {
+            first: 0,
+            count: 700,
+        };
+        let contest = Contest::new(2, 3, seeds);
+        let (_folder, mut store) = new_store();
+        contest.store(&mut store, KeptTranscripts::None, |_, _, _| true);
+        let found = store.read(|it| matches(it, &Catalog::load(it)?))?;
+
+        let expected = [0, 1].map(|player| {
+            let places = (0..3).flat_map(|maze| (0..700).map(move |seed| (maze, seed)));
+            let records = places.map(|(maze, seed)| contest.play(player, maze, seed).record);
+            let digests: Vec<Digest> = records.map(|it| record_digest(&it)).collect();
+            assert!(digests.len() > 2 * GROUP_MAX);
+            let (robot, variant) = contest.players[player];
+            DigestBuilder::new("wasmouse.store.player.1")
+                .digest(&contest.engine.digest())
+                .digest(&contest.rules.digest())
+                .digest(&robot)
+                .numbers(&[variant.into()])
+                .digest(&list(digests))
+                .finish()
+        });
+        assert_eq!(found, expected);
+        Ok(())
+    }
 }
