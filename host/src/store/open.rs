@@ -15,8 +15,11 @@ use super::schema::{self, APPLICATION_ID, SCHEMA_VERSION};
 /// How long to wait for a lock of another program. Those of this one are held for milliseconds.
 const BUSY_TIMEOUT: Duration = Duration::from_secs(3);
 
-/// Memory for pages, in KiB: the last pages of hundreds of robots fit.
-const CACHE_KIB: i64 = 32 * 1024;
+/// Memory for pages of a writer, in KiB: the last pages of thousands of robots fit.
+const WRITER_CACHE_KIB: i64 = 16 * 1024;
+
+/// The same for a reader, which goes through tables from their beginning to their end.
+const READER_CACHE_KIB: i64 = 2 * 1024;
 
 /// Pages in the log before SQLite copies them into the file: 16 MiB.
 const LOG_PAGES: i64 = 4096;
@@ -212,6 +215,7 @@ fn open_for_writing(path: &Path) -> Result<Store, StoreErrorKind> {
     }
     connection.pragma_update(None, "synchronous", "FULL")?;
     connection.pragma_update(None, "wal_autocheckpoint", LOG_PAGES)?;
+    connection.pragma_update(None, "cache_size", -WRITER_CACHE_KIB)?;
     version(&connection)?;
     schema::migrate(&mut connection)?;
     schema::check(&connection)?;
@@ -240,6 +244,7 @@ fn open_for_reading(path: &Path) -> Result<Store, StoreErrorKind> {
         error => Err(error),
     })?;
     connection.pragma_update(None, "query_only", true)?;
+    connection.pragma_update(None, "cache_size", -READER_CACHE_KIB)?;
     let found = version(&connection)?;
     if found < SCHEMA_VERSION {
         let supported = SCHEMA_VERSION;
@@ -296,7 +301,6 @@ fn configure(connection: &Connection) -> Result<(), StoreErrorKind> {
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, true)?;
     connection.pragma_update(None, "cell_size_check", true)?;
     connection.pragma_update(None, "foreign_keys", true)?;
-    connection.pragma_update(None, "cache_size", -CACHE_KIB)?;
     let id: u32 = connection.query_row("PRAGMA application_id", [], |row| row.get(0))?;
     if id != APPLICATION_ID {
         return Err(StoreErrorKind::OtherProgram(id));
