@@ -10,6 +10,7 @@
 # and, when all have ended:
 #
 #     wasmouse contest merge merged.db shard-*.db
+#     wasmouse contest report contest.toml --store merged.db --html contest.html
 set -eu
 
 shard=$SLURM_ARRAY_TASK_ID

@@ -318,6 +318,106 @@ fn the_action_installs_a_program_or_uses_the_one_that_is_there() {
     assert_eq!(says("1.2.3"), "wasmouse 1.2.3\n");
 }
 
+/// A folder with a contest, and a `wasmouse` that is the real program in `bin`.
+struct Machines(TempDir);
+
+impl Machines {
+    fn new() -> Self {
+        let machines = Self(tempfile::tempdir().expect("a temporary folder"));
+        let contest = "version = 1\n[[robots]]\nbundled = \"flood\"\n\
+                       [[mazes]]\nset = \"all\"\npaths = [\"gen:tree:12:1..=9\"]\n";
+        fs::write(machines.path("contest.toml"), contest).expect("a file");
+        fs::create_dir(machines.path("bin")).expect("a folder");
+        script(&machines.path("bin/wasmouse"), &real_program());
+        machines
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    /// Runs commands in the folder.
+    fn run(&self, code: &str, environment: &[(&str, &str)]) {
+        let search = std::env::var("PATH").expect("a path");
+        let mut shell = Command::new("sh");
+        shell.args(["-euc", code]).current_dir(self.0.path());
+        shell.env("PATH", format!("{}:{search}", self.path("bin").display()));
+        let ran = ran(shell.envs(environment.iter().copied()));
+        assert!(ran.status.success(), "{code}: {}", ran.stderr);
+    }
+
+    /// The page that was written is that of a contest on one machine.
+    fn assert_reported(&self) {
+        self.run("wasmouse contest run --store one.db", &[]);
+        self.run(
+            "wasmouse contest report --store one.db --html one.html --force",
+            &[],
+        );
+        let page = |name| fs::read_to_string(self.path(name)).expect("a page");
+        // Not `assert_eq`, which would print both.
+        assert!(page("contest.html") == page("one.html"));
+    }
+}
+
+/// The commands of the steps of a job, without those that have a name: they install wasmouse.
+fn commands(job: &Value) -> Vec<&str> {
+    let steps = job["steps"].as_array().expect("steps").iter();
+    let steps = steps.filter(|it| it.get("name").is_none());
+    steps.filter_map(|it| it["run"].as_str()).collect()
+}
+
+#[test]
+fn a_matrix_of_jobs_gives_the_page_of_one_machine() {
+    let workflow = fs::read_to_string(repository_file("docs/ci/github-shards.yml"));
+    let workflow: Value = serde_saphyr::from_str(&workflow.expect("a file")).expect("YAML");
+    let (play, merge) = (&workflow["jobs"]["play"], &workflow["jobs"]["merge"]);
+    let machines = Machines::new();
+    let shards = play["strategy"]["matrix"]["shard"].as_array();
+    let shards = shards.expect("a list");
+    assert_eq!(play["env"]["SHARDS"], shards.len());
+    let [command] = commands(play)[..] else {
+        panic!("one command: {play}");
+    };
+    let number = shards.len().to_string();
+    for shard in shards {
+        let shard = shard.to_string();
+        machines.run(command, &[("SHARD", &shard), ("SHARDS", &number)]);
+    }
+    let [command] = commands(merge)[..] else {
+        panic!("one command: {merge}");
+    };
+    machines.run(command, &[]);
+    machines.assert_reported();
+}
+
+#[test]
+fn the_commands_for_several_machines_work() {
+    let page = fs::read_to_string(repository_file("docs/CI.md")).expect("a file");
+    let section = page.split("\n## ");
+    let mut section = section.filter(|it| it.starts_with("Play a contest on several machines"));
+    let section = section.next().expect("a section");
+    let commands: Vec<&str> = section
+        .lines()
+        .filter_map(|it| it.strip_prefix("    "))
+        .collect();
+    assert_eq!(commands.len(), 4);
+    let machines = Machines::new();
+    machines.run(&commands.join("\n"), &[]);
+    machines.assert_reported();
+
+    // The last commands are in comments of the scripts, too.
+    for script in ["docs/ci/slurm.sh", "docs/ci/kubernetes.yaml"] {
+        let script = fs::read_to_string(repository_file(script)).expect("a file");
+        let comments = script.lines().filter_map(|it| it.strip_prefix("#     "));
+        let comments: Vec<&str> = comments.filter(|it| it.starts_with("wasmouse")).collect();
+        assert_eq!(comments.len(), 2);
+        fs::remove_file(machines.path("merged.db")).expect("a store");
+        fs::remove_file(machines.path("contest.html")).expect("a page");
+        machines.run(&comments.join("\n"), &[]);
+        machines.assert_reported();
+    }
+}
+
 /// A folder for `PATH` with a `wasmouse` that prints its arguments.
 fn echo() -> TempDir {
     let folder = tempfile::tempdir().expect("a temporary folder");
