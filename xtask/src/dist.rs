@@ -152,7 +152,7 @@ fn installer(
     let source = root.join(name);
     let script = fs::read_to_string(&source).map_err(|error| at(&source, &error))?;
     let published_at = repository.unwrap_or_default();
-    // It ends up inside of quotes of a script.
+    // It ends up inside quotes of a script.
     let is_harmless = |c: char| c.is_ascii_alphanumeric() || "-._~:/@".contains(c);
     if !published_at.chars().all(is_harmless) {
         return Err(format!(

@@ -34,7 +34,7 @@ enum Command {
         #[arg(long)]
         check: bool,
     },
-    /// Build what keeps WASI inside of robots into host/engine/wasi/prebuilt.
+    /// Build what keeps WASI inside robots into host/engine/wasi/prebuilt.
     Wasi {
         /// Build nothing; list what is stale.
         #[arg(long)]

@@ -1,4 +1,4 @@
-//! `cargo xtask wasi`: builds what keeps WASI inside of robots, or says what of it is stale.
+//! `cargo xtask wasi`: builds what keeps WASI inside robots, or says what of it is stale.
 //!
 //! The builder is a program of the tests, because it has dependencies that this crate must
 //! not have.

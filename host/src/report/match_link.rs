@@ -49,7 +49,7 @@ pub struct MatchLink {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ParseLinkError {
     /// There are more than four parts.
-    #[error("expected ROBOT/MAZE/SEED/STEP; write `/` inside of a name as `%2F`")]
+    #[error("expected ROBOT/MAZE/SEED/STEP; write `/` in a name as `%2F`")]
     Parts,
     /// The third part is no seed.
     #[error("the seed is not a number from 0 to 18446744073709551615")]
