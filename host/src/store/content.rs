@@ -1,7 +1,6 @@
 //! [`Store::content_digest`]: a store in one line. [`Store::seal`]: the same, written into it.
 
-use std::mem;
-use std::sync::mpsc::{Receiver, sync_channel};
+use std::sync::mpsc::sync_channel;
 use std::thread;
 
 use rusqlite::{Connection, Row, params};
@@ -186,34 +185,28 @@ const GROUP_MAX: usize = 1024;
 /// Groups that wait to be hashed, at most.
 const GROUPS_WAITING: usize = 4;
 
-/// The digests of the players. Reading the records takes as long as hashing them, so one thread
-/// does this and one does that.
+/// The digests of the players. Reading the records takes twice as long as hashing them, so another
+/// thread does that meanwhile.
 fn matches(connection: &Connection, catalog: &Catalog) -> Result<Vec<Digest>, StoreErrorKind> {
     thread::scope(|scope| {
-        let (sender, groups) = sync_channel(GROUPS_WAITING);
+        let (sender, groups) = sync_channel::<Group>(GROUPS_WAITING);
+        let mut players = PlayerDigests::new(catalog);
+        let hash = move || {
+            groups.into_iter().try_for_each(|it| players.add(&it))?;
+            players.finish()
+        };
         let hashing = thread::Builder::new().name("digest".to_owned());
-        let hashing = hashing.spawn_scoped(scope, move || players(&groups, catalog))?;
-        let mut group: Option<Group> = None;
-        // Whoever does not receive has failed, and says why when it is joined.
-        let send = |group| drop(sender.send(group));
-        let read = each_record(connection, catalog, |at, record| {
-            match &mut group {
-                Some((player, records))
-                    if player.is_same_player(at) && records.len() < GROUP_MAX =>
-                {
-                    records.push(record);
-                }
-                _ => {
-                    if let Some(full) = group.replace((*at, vec![record])) {
-                        send(full);
-                    }
-                }
-            }
-            Ok::<_, StoreErrorKind>(())
+        let Ok(hashing) = hashing.spawn_scoped(scope, hash) else {
+            // Not where the system has no more threads.
+            let mut players = PlayerDigests::new(catalog);
+            each_group(connection, catalog, |it| players.add(&it))?;
+            return players.finish();
+        };
+        let read = each_group(connection, catalog, |group| {
+            // Whoever does not receive it has failed, and says why when it is joined.
+            let _ = sender.send(group);
+            Ok(())
         });
-        if let Some(last) = group {
-            send(last);
-        }
         drop(sender);
         let players = hashing.join();
         read?;
@@ -221,35 +214,74 @@ fn matches(connection: &Connection, catalog: &Catalog) -> Result<Vec<Digest>, St
     })
 }
 
-/// The digests of the players of some groups, in which those of a player follow each other.
-fn players(groups: &Receiver<Group>, catalog: &Catalog) -> Result<Vec<Digest>, StoreErrorKind> {
-    let mut players = Vec::new();
-    let mut player: Option<Address> = None;
-    let mut digests = Vec::new();
-    let mut end = |at: &Address, digests: &mut Vec<Digest>| -> Result<(), StoreErrorKind> {
-        let key = catalog.key(at)?;
+/// Passes all records to `visit`, those of a player one group after the other.
+fn each_group(
+    connection: &Connection,
+    catalog: &Catalog,
+    mut visit: impl FnMut(Group) -> Result<(), StoreErrorKind>,
+) -> Result<(), StoreErrorKind> {
+    let mut group: Option<Group> = None;
+    each_record(connection, catalog, |at, record| match &mut group {
+        Some((player, records)) if player.is_same_player(at) && records.len() < GROUP_MAX => {
+            records.push(record);
+            Ok(())
+        }
+        _ => group
+            .replace((*at, vec![record]))
+            .map_or(Ok(()), &mut visit),
+    })?;
+    group.map_or(Ok(()), visit)
+}
+
+/// Digests of players, made of their records.
+struct PlayerDigests<'c> {
+    catalog: &'c Catalog,
+    players: Vec<Digest>,
+    /// The player whose records are being added, and their digests.
+    current: Option<(Address, Vec<Digest>)>,
+}
+
+impl<'c> PlayerDigests<'c> {
+    const fn new(catalog: &'c Catalog) -> Self {
+        Self {
+            catalog,
+            players: Vec::new(),
+            current: None,
+        }
+    }
+
+    fn add(&mut self, (at, records): &Group) -> Result<(), StoreErrorKind> {
+        let digests = records.iter().map(record_digest);
+        match &mut self.current {
+            Some((player, all)) if player.is_same_player(at) => all.extend(digests),
+            _ => {
+                let next = (*at, digests.collect());
+                if let Some(last) = self.current.replace(next) {
+                    self.end(last)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn end(&mut self, (at, records): (Address, Vec<Digest>)) -> Result<(), StoreErrorKind> {
+        let key = self.catalog.key(&at)?;
         let builder = DigestBuilder::new("wasmouse.store.player.1")
             .digest(&key.engine)
             .digest(&key.rules)
             .digest(&key.robot)
             .numbers(&[key.variant.into()])
-            .digest(&list(mem::take(digests)));
-        players.push(builder.finish());
+            .digest(&list(records));
+        self.players.push(builder.finish());
         Ok(())
-    };
-    for (at, records) in groups {
-        if let Some(last) = &player
-            && !last.is_same_player(&at)
-        {
-            end(last, &mut digests)?;
+    }
+
+    fn finish(mut self) -> Result<Vec<Digest>, StoreErrorKind> {
+        if let Some(last) = self.current.take() {
+            self.end(last)?;
         }
-        player = Some(at);
-        digests.extend(records.iter().map(record_digest));
+        Ok(self.players)
     }
-    if let Some(last) = &player {
-        end(last, &mut digests)?;
-    }
-    Ok(players)
 }
 
 /// The digest of a record among those of its player.
@@ -320,6 +352,13 @@ mod tests {
         let (_folder, mut store) = new_store();
         contest.store(&mut store, KeptTranscripts::None, |_, _, _| true);
         let found = store.read(|it| matches(it, &Catalog::load(it)?))?;
+        let on_this_thread = store.read(|it| {
+            let catalog = Catalog::load(it)?;
+            let mut players = PlayerDigests::new(&catalog);
+            each_group(it, &catalog, |it| players.add(&it))?;
+            players.finish()
+        })?;
+        assert_eq!(on_this_thread, found);
 
         let expected = [0, 1].map(|player| {
             let places = (0..3).flat_map(|maze| (0..700).map(move |seed| (maze, seed)));
