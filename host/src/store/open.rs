@@ -81,14 +81,6 @@ impl Store {
         &self.path
     }
 
-    /// Writes what is in SQLite's log into the file, as far as nobody is in the way. Closing the
-    /// last connection does the same; this can be done before that, while others write.
-    pub fn checkpoint(&self) {
-        let checkpoint = "PRAGMA wal_checkpoint(PASSIVE)";
-        // What cannot be written stays in the log, which is as good.
-        let _ = self.connection.query_row(checkpoint, [], |_| Ok(()));
-    }
-
     /// Whether both are the same file.
     pub(super) fn is_same_file(&self, other: &Self) -> bool {
         self.file.path == other.file.path

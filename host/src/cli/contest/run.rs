@@ -235,8 +235,7 @@ impl Args {
 }
 
 /// Seals the store, and reads the matrix from it meanwhile: both go through all records, and a
-/// contest of many short matches would wait for them one after the other. So would it for the
-/// checkpoint with which a store is closed.
+/// contest of many short matches would wait for them one after the other.
 fn seal_and_read(
     contest: &PlannedContest,
     store: &mut Store,
@@ -251,7 +250,6 @@ fn seal_and_read(
         let sealing = thread::Builder::new().spawn_scoped(scope, seal);
         let sealing = sealing.map_err(|error| Failure::internal(RunError::Thread(error)))?;
         let matrix = contest.matrix(&reader, not_admitted);
-        reader.checkpoint();
         let sealed = sealing.join();
         let sealed = sealed.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         sealed.map_err(store_failure)?;
