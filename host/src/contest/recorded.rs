@@ -100,7 +100,8 @@ impl RecordedScores {
         for results in &self.documents {
             for entry in &results.contest.robots {
                 let is_same = |it: &MatrixRobot| {
-                    (&it.name, it.digest, it.variant) == (&entry.name, entry.digest, entry.variant)
+                    it.name == *entry.name
+                        && (it.digest, it.variant) == (entry.digest, entry.variant)
                 };
                 if entry.is_admitted() && !robots.iter().any(is_same) {
                     robots.push(MatrixRobot::new(
@@ -126,7 +127,7 @@ impl RecordedScores {
         let mut places: HashMap<Digest, usize> = HashMap::new();
         for maze in mazes {
             let place = matrix.push_maze(MatrixMaze {
-                name: maze.name.clone(),
+                name: maze.name.clone().into(),
                 digest: maze.digest,
                 dimension: maze.dimension,
                 oracle: maze.oracle,

@@ -58,7 +58,11 @@ pub fn contest_status(status: &Status<'_>) -> String {
         let played = mazes
             .flat_map(|maze| seeds.clone().map(move |seed| (maze, seed)))
             .filter(|&(maze, seed)| matrix.get(index, maze, seed).is_some());
-        line(text!("  {}: {} matches", robot.name, played.count()));
+        line(text!(
+            "  {}: {} matches",
+            robot.name.escaped(),
+            played.count()
+        ));
         for (kind, fault) in &robot.faults {
             line(text!("    {} times {}", fault.count, kind));
         }

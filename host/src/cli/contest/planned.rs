@@ -4,9 +4,9 @@ use std::collections::{HashMap, HashSet};
 use std::path::Path;
 use std::sync::Arc;
 
-use wasmouse_core::Digest;
 use wasmouse_core::game::Ruleset;
 use wasmouse_core::record::MatchKey;
+use wasmouse_core::{Digest, GuestText};
 use wasmouse_engine::admission::Rejection;
 use wasmouse_engine::{AdmissionLimits, engine_id};
 
@@ -261,8 +261,8 @@ impl PlannedContest {
             let robot = &planned.robot;
             let (digest, variant) = planned.player();
             let mut entry = MatrixRobot::new(robot.name.clone(), digest, variant);
-            entry.author = robot.author.clone();
-            entry.class = robot.class.clone();
+            entry.author = robot.author.clone().map(GuestText::from);
+            entry.class = robot.class.clone().map(GuestText::from);
             entry.not_admitted = not_admitted[index].clone();
             entry
         });
@@ -298,7 +298,7 @@ impl PlannedContest {
                 }
             }
             let class = self.folder.file.class_by_usage(step_fuel, memory_bytes);
-            matrix.robots[robot].class = class.map(str::to_owned);
+            matrix.robots[robot].class = class.map(GuestText::from);
         }
     }
 

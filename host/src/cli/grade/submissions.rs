@@ -76,7 +76,7 @@ impl Field {
 fn missing(name: String, failure: Failure) -> Result<Submission, Failure> {
     match failure.exit() {
         Exit::Input | Exit::Robot => Ok(Submission::Missing {
-            name,
+            name: name.into(),
             reason: failure.message().as_str().into(),
         }),
         _ => Err(failure),

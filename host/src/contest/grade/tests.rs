@@ -42,7 +42,7 @@ struct Played {
 
 impl Played {
     fn new() -> Self {
-        let robot = |name: &str| MatrixRobot::new(name.to_owned(), Digest::of(name.as_bytes()), 0);
+        let robot = |name: &str| MatrixRobot::new(name, Digest::of(name.as_bytes()), 0);
         let mut robots = ["good", "bad", "lost", "late"].map(robot).to_vec();
         robots[2].not_admitted = Some(NotAdmitted::Failed("no worker".into()));
         let seeds = Seeds { first: 0, count: 1 };
@@ -50,7 +50,7 @@ impl Played {
         let mazes: Vec<String> = (0..10).map(|it| format!("maze-{it}")).collect();
         for (index, name) in mazes.iter().enumerate() {
             matrix.push_maze(MatrixMaze {
-                name: name.clone(),
+                name: name.as_str().into(),
                 digest: Digest::of(name.as_bytes()),
                 dimension: 12,
                 oracle: Some(Score::new(19, 30, 30)),

@@ -158,7 +158,7 @@ fn the_matrix_of_a_store_is_that_of_the_contest() {
     assert_eq!(matrix.played(), 5 * 6 * 5);
     let mut faults = 0;
     for (place, maze) in contest.mazes.iter().enumerate() {
-        assert_eq!(matrix.mazes[place].name, maze.name);
+        assert_eq!(matrix.mazes[place].name, *maze.name);
         assert_eq!(matrix.mazes[place].digest, maze.digest);
         assert_eq!(matrix.mazes[place].oracle, maze.oracle);
         assert_eq!(matrix.mazes[place].dimension, 12);
