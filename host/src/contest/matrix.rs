@@ -277,7 +277,7 @@ impl MatrixBuilder {
 impl Sink for MatrixBuilder {
     fn maze(&mut self, maze: &ContestMaze) -> io::Result<()> {
         self.matrix.push_maze(MatrixMaze {
-            name: maze.name.clone().into(),
+            name: maze.name.clone(),
             digest: maze.digest,
             dimension: maze.maze.dimension(),
             oracle: maze.oracle,

@@ -100,8 +100,7 @@ impl RecordedScores {
         for results in &self.documents {
             for entry in &results.contest.robots {
                 let is_same = |it: &MatrixRobot| {
-                    it.name == *entry.name
-                        && (it.digest, it.variant) == (entry.digest, entry.variant)
+                    (&it.name, it.digest, it.variant) == (&entry.name, entry.digest, entry.variant)
                 };
                 if entry.is_admitted() && !robots.iter().any(is_same) {
                     robots.push(MatrixRobot::new(
@@ -127,7 +126,7 @@ impl RecordedScores {
         let mut places: HashMap<Digest, usize> = HashMap::new();
         for maze in mazes {
             let place = matrix.push_maze(MatrixMaze {
-                name: maze.name.clone().into(),
+                name: maze.name.clone(),
                 digest: maze.digest,
                 dimension: maze.dimension,
                 oracle: maze.oracle,

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use wasmouse_core::Digest;
+use wasmouse_core::{Digest, GuestText};
 
 use super::text::text;
 use crate::contest::ScoreMatrix;
@@ -24,7 +24,7 @@ pub struct Status<'a> {
     /// How many matches have two records.
     pub conflicts: u64,
     /// All submissions, the oldest first: name, file, variant, and the kind of its rejection.
-    pub submissions: Vec<(String, Digest, u32, Option<String>)>,
+    pub submissions: Vec<(GuestText, Digest, u32, Option<String>)>,
 }
 
 /// Some lines about the contest, one for each robot, and one for each submission. Ends with a
@@ -77,7 +77,7 @@ pub fn contest_status(status: &Status<'_>) -> String {
         let rejection = rejection.map_or_else(String::new, |it| format!(", rejected: {it}"));
         line(text!(
             "  {}: {}, variant {}{}",
-            name,
+            name.escaped(),
             &digest[..12],
             variant,
             rejection

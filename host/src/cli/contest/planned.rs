@@ -261,8 +261,8 @@ impl PlannedContest {
             let robot = &planned.robot;
             let (digest, variant) = planned.player();
             let mut entry = MatrixRobot::new(robot.name.clone(), digest, variant);
-            entry.author = robot.author.clone().map(GuestText::from);
-            entry.class = robot.class.clone().map(GuestText::from);
+            entry.author = robot.author.clone();
+            entry.class = robot.class.clone();
             entry.not_admitted = not_admitted[index].clone();
             entry
         });

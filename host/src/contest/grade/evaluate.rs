@@ -25,7 +25,7 @@ pub struct Graded<'a> {
     /// Why matches were not played.
     pub unplayed: &'a UnplayedMatches,
     /// The names of all mazes that were to be played.
-    pub mazes: &'a [String],
+    pub mazes: &'a [GuestText],
     /// By criterion, the mazes that count for it, as indices of `mazes`.
     pub scopes: &'a [Vec<usize>],
     /// Reference robots by what the rubric calls them, as indices of the matrix.
