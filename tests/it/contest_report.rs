@@ -126,7 +126,7 @@ impl Contest {
         bold.class = Some("large".into());
         bold.faults.insert("panic", MatrixFault { count: 1, first });
         looper.unplayed = BTreeMap::from([("it stalled twice".into(), 12)]);
-        let rejection = Rejection::UnknownImport("wasi:cli/environment@0.2.0".to_owned());
+        let rejection = Rejection::UnknownImport("wasi:cli/environment@0.2.0".into());
         rejected.not_admitted = Some(NotAdmitted::Rejected(Arc::new(rejection)));
         unlucky.not_admitted = Some(NotAdmitted::Failed("no worker process".into()));
     }

@@ -403,7 +403,11 @@ fn rejections_are_the_same_in_workers() {
             let rejections = [admission.err(), inspection.rejection];
             rejections.map(|it| {
                 let it: Rejection = it.expect("it is not a robot");
-                (it.name().to_owned(), it.to_string(), it.hint().to_owned())
+                (
+                    it.name().raw().to_owned(),
+                    it.reason(),
+                    it.hint().raw().to_owned(),
+                )
             })
         };
         assert_eq!(rejection(&there), rejection(&here));

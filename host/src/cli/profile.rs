@@ -121,7 +121,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
                 name,
                 rejection.reason().escaped()
             ))
-            .hint(rejection.hint()));
+            .hint(rejection.hint().escaped()));
         }
         Err(NotAdmitted::Failed(reason)) => {
             let message = text!("`{}` could not be admitted: {}", name, reason.escaped());

@@ -80,7 +80,7 @@ pub fn print_faults(
                 "rejected `{}`: {}\n  hint: {}",
                 for_terminal(&entrant.name),
                 for_terminal(&rejection.reason()),
-                rejection.hint()
+                rejection.hint().escaped()
             );
         }
     }

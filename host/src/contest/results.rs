@@ -85,19 +85,19 @@ impl RobotEntry {
 #[serde(deny_unknown_fields)]
 pub struct RejectionEntry {
     /// A short name: lowercase letters and hyphens.
-    pub kind: String,
+    pub kind: GuestText,
     /// Why.
     pub reason: GuestText,
     /// What to do.
-    pub hint: String,
+    pub hint: GuestText,
 }
 
 impl From<&Rejection> for RejectionEntry {
     fn from(rejection: &Rejection) -> Self {
         Self {
-            kind: rejection.name().to_owned(),
+            kind: rejection.name().into(),
             reason: rejection.reason(),
-            hint: rejection.hint().to_owned(),
+            hint: rejection.hint().into(),
         }
     }
 }

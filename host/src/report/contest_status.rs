@@ -24,7 +24,7 @@ pub struct Status<'a> {
     /// How many matches have two records.
     pub conflicts: u64,
     /// All submissions, the oldest first: name, file, variant, and the kind of its rejection.
-    pub submissions: Vec<(GuestText, Digest, u32, Option<String>)>,
+    pub submissions: Vec<(GuestText, Digest, u32, Option<GuestText>)>,
 }
 
 /// Some lines about the contest, one for each robot, and one for each submission. Ends with a
@@ -74,7 +74,8 @@ pub fn contest_status(status: &Status<'_>) -> String {
     for (name, digest, variant, rejection) in &status.submissions {
         let digest = digest.to_string();
         let rejection = rejection.as_ref();
-        let rejection = rejection.map_or_else(String::new, |it| format!(", rejected: {it}"));
+        let rejection =
+            rejection.map_or_else(String::new, |it| format!(", rejected: {}", it.escaped()));
         line(text!(
             "  {}: {}, variant {}{}",
             name.escaped(),

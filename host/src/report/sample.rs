@@ -44,9 +44,9 @@ pub(super) fn results() -> Results {
         digest: Digest::of(name.as_bytes()),
         variant: 0,
         rejection: (name == "rejected").then(|| RejectionEntry {
-            kind: "unknown-import".to_owned(),
+            kind: "unknown-import".into(),
             reason: format!("it imports {HOSTILE}").into(),
-            hint: "build it without".to_owned(),
+            hint: "build it without".into(),
         }),
         failure: None,
     });

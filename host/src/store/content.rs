@@ -151,9 +151,9 @@ fn submissions_by_name(connection: &Connection) -> Result<Vec<Digest>, StoreErro
             let builder = builder.numbers(&[it.variant.into()]);
             let builder = text(builder, it.author.as_ref().map(GuestText::raw));
             let builder = text(builder, it.class.as_ref().map(GuestText::raw));
-            let builder = text(builder, rejection.map(|it| &*it.kind));
+            let builder = text(builder, rejection.map(|it| it.kind.raw()));
             let builder = text(builder, rejection.map(|it| it.reason.raw()));
-            text(builder, rejection.map(|it| &*it.hint))
+            text(builder, rejection.map(|it| it.hint.raw()))
         });
         builder.finish()
     });

@@ -86,11 +86,11 @@ const SELECT: &str = "SELECT s.name, s.author, s.class, r.digest, s.variant, s.r
      s.rejection_reason, s.rejection_hint FROM submission s JOIN robot r ON r.id = s.robot";
 
 fn read(row: &rusqlite::Row<'_>) -> rusqlite::Result<Submission> {
-    let rejection = match row.get(5)? {
+    let rejection = match optional_text_at(row, 5)? {
         Some(kind) => Some(RejectionEntry {
             kind,
             reason: text_at(row, 6)?,
-            hint: row.get(7)?,
+            hint: text_at(row, 7)?,
         }),
         None => None,
     };
@@ -134,9 +134,9 @@ pub(super) fn append(
         submission.class.as_ref().map(column),
         robot,
         submission.variant,
-        rejection.map(|it| &it.kind),
+        rejection.map(|it| column(&it.kind)),
         rejection.map(|it| column(&it.reason)),
-        rejection.map(|it| &it.hint),
+        rejection.map(|it| column(&it.hint)),
     ])?;
     Ok(())
 }

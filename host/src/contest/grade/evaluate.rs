@@ -97,9 +97,9 @@ impl Graded<'_> {
         let entry = &self.matrix.robots[robot];
         match &entry.not_admitted {
             Some(NotAdmitted::Rejected(rejection)) => Participation::Rejected {
-                kind: rejection.name().to_owned(),
+                kind: rejection.name().into(),
                 reason: rejection.reason(),
-                hint: rejection.hint().to_owned(),
+                hint: rejection.hint().into(),
             },
             Some(NotAdmitted::Failed(reason)) => Participation::HostFailed(reason.clone()),
             None => match self.unplayed.of(entry.digest, entry.variant).withdrawn {

@@ -95,9 +95,9 @@ struct RobotEntry<'a> {
 
 #[derive(Serialize)]
 struct Rejection<'a> {
-    kind: &'a str,
+    kind: GuestStr<'a>,
     reason: Option<GuestText>,
-    hint: &'a str,
+    hint: GuestStr<'a>,
 }
 
 #[derive(Serialize)]

@@ -149,7 +149,7 @@ impl Sample {
         self.matrix.robots[1].class = Some(format!("class {untrusted}").into());
         let reason = format!("too slow: {untrusted}");
         self.matrix.robots[2].unplayed.insert(reason.into(), 3);
-        let rejection = Rejection::UnknownImport(untrusted.to_owned());
+        let rejection = Rejection::UnknownImport(untrusted.into());
         self.matrix.robots[3].not_admitted = Some(NotAdmitted::Rejected(Arc::new(rejection)));
         let failed = NotAdmitted::Failed(format!("no process: {untrusted}").into());
         self.matrix.robots[4].not_admitted = Some(failed);

@@ -48,7 +48,7 @@ pub(super) struct Unranked<'a> {
     /// Why, if that may be shown, and for how many matches.
     pub(super) reasons: Vec<(&'a GuestText, Option<u64>)>,
     /// The same of a rejection, which makes its texts itself.
-    pub(super) rejection: Option<(GuestText, &'a str)>,
+    pub(super) rejection: Option<(GuestText, GuestStr<'a>)>,
 }
 
 /// A kind of fault of a robot.

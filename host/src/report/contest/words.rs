@@ -154,7 +154,7 @@ pub(super) fn missing(view: &View<'_>) -> Option<String> {
 pub(super) fn unranked(unranked: &Unranked<'_>) -> GuestText {
     let mut text = GuestText::from(unranked.state);
     if let Some((reason, hint)) = &unranked.rejection {
-        text.push(&guest_text!(": {} (hint: {})", reason, hint));
+        text.push(&guest_text!(": {} (hint: {})", reason, *hint));
     }
     for (index, (reason, count_of)) in unranked.reasons.iter().enumerate() {
         text.push(if index == 0 { ": " } else { "; " });

@@ -131,9 +131,9 @@ fn submission(name: &str, number: u32) -> Submission {
         robot: robot(number),
         variant: number,
         rejection: (number > 3).then(|| RejectionEntry {
-            kind: "too-large".to_owned(),
+            kind: "too-large".into(),
             reason: "a reason".into(),
-            hint: "a hint".to_owned(),
+            hint: "a hint".into(),
         }),
     }
 }
