@@ -11,7 +11,7 @@ use super::escape::for_terminal;
 pub fn backtrace<'a>(robot: impl Into<GuestStr<'a>>, frames: &[Frame]) -> String {
     let parts = Frame::folded(frames);
     let own = parts.iter().find_map(|part| match part {
-        FramePart::Frame(frame) => frame.source.as_deref(),
+        FramePart::Frame(frame) => frame.source.as_ref(),
         FramePart::Folded { .. } => None,
     });
     let mut lines = format!("backtrace of `{}`", for_terminal(robot));
@@ -41,14 +41,16 @@ pub fn backtrace<'a>(robot: impl Into<GuestStr<'a>>, frames: &[Frame]) -> String
 
 #[cfg(test)]
 mod tests {
+    use wasmouse_core::GuestText;
+
     use super::*;
 
     #[test]
     fn runtimes_are_one_line_and_the_own_source_comes_first() {
         let frame = |function: &str, source: Option<&str>| Frame {
-            function: function.to_owned(),
+            function: function.into(),
             offset: Some(0x1f),
-            source: source.map(str::to_owned),
+            source: source.map(GuestText::from),
         };
         let frames = [
             frame(

@@ -190,7 +190,7 @@ struct Shared<'a> {
 
 #[derive(Serialize)]
 struct SharedFrame<'a> {
-    name: &'a str,
+    name: &'a GuestText,
 }
 
 #[derive(Serialize)]
@@ -228,9 +228,7 @@ mod tests {
         ];
         Profile {
             functions: names
-                .map(|name| ProfiledFunction {
-                    name: name.to_owned(),
-                })
+                .map(|name| ProfiledFunction { name: name.into() })
                 .into(),
             nodes: vec![
                 node(None, 0, 100, 3),

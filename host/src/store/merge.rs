@@ -378,9 +378,10 @@ impl Merging<'_> {
                 seed: row.get(5)?,
             };
             let cause = unplayed::Cause::of_code(row.get(6)?)?;
-            let reason: String = row.get(7)?;
+            let reason = text_at(row, 7)?;
             let into = self.address(&at)?;
-            unplayed::put_least(self.target, &into, cause, &reason).map_err(Blame::Target)?;
+            unplayed::put_least(self.target, &into, cause, reason.as_guest())
+                .map_err(Blame::Target)?;
         }
         Ok(())
     }
