@@ -279,7 +279,11 @@ fn rejections_are_kept() {
         let executor = sandboxed(&worker, Some(cache)).expect("a worker starts");
         let admission = executor.admit(&bad).expect("the host works");
         let rejection = admission.err().expect("it exports nothing");
-        let text = format!("{}: {rejection} ({})", rejection.name(), rejection.hint());
+        let text = format!(
+            "{}: {rejection} ({})",
+            rejection.name().escaped(),
+            rejection.hint().escaped()
+        );
         let log = fs::read_to_string(&log).expect("a log");
         (text, log.lines().filter(|role| *role == "compile").count())
     };

@@ -78,7 +78,7 @@ impl Contest {
             } else {
                 Digest::of(name.as_bytes())
             },
-            name,
+            name: name.into(),
             dimension: 12,
             oracle: (index != 8).then_some(oracle),
             set: usize::from(index > 4),
@@ -121,12 +121,12 @@ impl Contest {
         let [flood, bold, looper, rejected, unlucky] = &mut self.matrix.robots[..] else {
             panic!("five robots");
         };
-        flood.class = Some("small".to_owned());
-        flood.author = Some("Ann".to_owned());
-        bold.class = Some("large".to_owned());
+        flood.class = Some("small".into());
+        flood.author = Some("Ann".into());
+        bold.class = Some("large".into());
         bold.faults.insert("panic", MatrixFault { count: 1, first });
         looper.unplayed = BTreeMap::from([("it stalled twice".into(), 12)]);
-        let rejection = Rejection::UnknownImport("wasi:cli/environment@0.2.0".to_owned());
+        let rejection = Rejection::UnknownImport("wasi:cli/environment@0.2.0".into());
         rejected.not_admitted = Some(NotAdmitted::Rejected(Arc::new(rejection)));
         unlucky.not_admitted = Some(NotAdmitted::Failed("no worker process".into()));
     }

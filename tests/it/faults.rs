@@ -325,7 +325,7 @@ fn a_robot_that_cannot_be_admitted_costs_nobody_else_anything() {
     let records = |output: &Output, robot: &str| {
         let results: Results = serde_json::from_slice(&output.stdout).expect("complete JSON");
         let mut robots = results.contest.robots.iter();
-        let robot = robots.find(|it| it.name.starts_with(robot));
+        let robot = robots.find(|it| it.name.as_guest().starts_with(robot));
         let robot = robot.expect("it was given");
         let failure = robot.failure.clone().unwrap_or_default();
         let matches = results.matches.into_iter();

@@ -21,11 +21,21 @@ const MAY_CALL_RAW: &[(&str, &str)] = &[
         "host/engine/src/admission/rejection.rs",
         "makes one text of another",
     ),
-    ("host/src/cli/grade/check.rs", "compares names"),
+    (
+        "host/engine/src/runtime/backtrace.rs",
+        "compares names with those of runtimes",
+    ),
     ("host/src/cli/grade/outputs.rs", "makes names of folders"),
     ("host/src/cli/keep.rs", "makes names of files"),
-    ("host/src/cli/replays.rs", "compares names"),
+    (
+        "host/src/cli/resolve.rs",
+        "compares names with those of files, and parses those of generated mazes",
+    ),
     ("host/src/cli/tui/lines.rs", "breaks lines and escapes them"),
+    (
+        "host/src/contest/commitment.rs",
+        "computes a digest, and parses names of generated mazes",
+    ),
     (
         "host/src/report/picture/label.rs",
         "replaces harmful characters",
@@ -33,8 +43,6 @@ const MAY_CALL_RAW: &[(&str, &str)] = &[
     ("host/src/report/picture/svg.rs", "escapes for XML"),
     ("host/src/store/columns.rs", "writes to the database"),
     ("host/src/store/content.rs", "computes a digest"),
-    ("host/src/store/sink.rs", "writes to the database"),
-    ("host/src/store/submissions.rs", "writes to the database"),
 ];
 
 /// The crates that have such text.

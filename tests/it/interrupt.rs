@@ -183,7 +183,7 @@ fn an_interrupted_contest_is_ranked_over_the_mazes_that_all_have_played() {
         "{both} of {played} matches are comparable"
     );
     for line in &standings.lines {
-        assert_eq!(line.matches, both, "{}", line.robot);
+        assert_eq!(line.matches, both, "{:?}", line.robot);
     }
     let message = format!(
         "interrupted after {played} of 60000 matches; standings cover the {both} of 30000 mazes \

@@ -52,6 +52,8 @@ mod grade;
 mod guest_text;
 /// Robots in WebAssembly text, and a good robot that plays after them.
 mod hostile;
+/// Names of files that mean something to a terminal or in a report.
+mod hostile_names;
 /// Ctrl-C during a contest.
 mod interrupt;
 /// Robots in every language, built with the real tools.

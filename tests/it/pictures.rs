@@ -95,7 +95,7 @@ fn matrix(names: [&str; 3]) -> ScoreMatrix {
         let name = format!("maze-{place}");
         let maze = matrix.push_maze(MatrixMaze {
             digest: Digest::of(name.as_bytes()),
-            name,
+            name: name.into(),
             dimension,
             oracle: Some(rules.game.score(17 + place, 18 + place)),
             set: 0,
@@ -203,7 +203,7 @@ fn hostile_text_is_text() {
             poster(text, &[shot], &all).to_svg(Theme::Dark),
         ];
         let mut matrix = matrix([text, "b", "c"]);
-        text.clone_into(&mut matrix.mazes[0].name);
+        matrix.mazes[0].name = text.into();
         let title = Some(text.to_owned());
         for (_, kind) in KINDS {
             let options = plot::Options {

@@ -127,7 +127,7 @@ fn a_backtrace_hides_the_runtime() {
         "{frames:?}"
     );
     let of_robot = parts.iter().filter_map(|part| match part {
-        FramePart::Frame(frame) => Some(frame.function.as_str()),
+        FramePart::Frame(frame) => Some(frame.function.raw()),
         FramePart::Folded { .. } => None,
     });
     let functions: Vec<&str> = of_robot.collect();

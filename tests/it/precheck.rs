@@ -22,7 +22,7 @@ fn rejection(file: &[u8], what: &str) -> String {
     let rejection = precheck(file, &Limits::default()).expect_err(what);
     let seconds = start.elapsed().as_secs();
     assert!(seconds < SECONDS_MAX, "{rejection}: {seconds} s");
-    format!("{}: {rejection}", rejection.name())
+    format!("{}: {rejection}", rejection.name().escaped())
 }
 
 #[track_caller]

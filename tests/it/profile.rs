@@ -33,7 +33,7 @@ fn profiled(limits: Limits, file: &[u8], variant: u32) -> (DetailedMatch, Profil
 fn hottest(profile: &Profile) -> &str {
     let costs = profile.costs().into_iter().enumerate();
     let (at, _) = costs.max_by_key(|(_, cost)| cost.own).expect("a function");
-    &profile.functions[at].name
+    profile.functions[at].name.raw()
 }
 
 /// Every call of every bundled robot, to the last unit.
@@ -47,12 +47,12 @@ fn the_sum_of_a_profile_is_the_fuel_of_the_match() {
             profile
                 .functions
                 .iter()
-                .all(|it| !it.name.starts_with("wasm-function["))
+                .all(|it| !it.name.as_guest().starts_with("wasm-function["))
         );
         let calls = profile.nodes.iter().filter(|it| it.parent.is_none());
         let steps = calls.filter(|it| {
             let name = &profile.functions[it.function as usize].name;
-            name.ends_with("#next-move")
+            name.raw().ends_with("#next-move")
         });
         let steps: u64 = steps.map(|it| it.calls).sum();
         assert_eq!(
@@ -186,11 +186,7 @@ fn functions_without_names_are_numbered() {
         .component(),
         0,
     );
-    let names: Vec<&str> = profile
-        .functions
-        .iter()
-        .map(|it| it.name.as_str())
-        .collect();
+    let names: Vec<&str> = profile.functions.iter().map(|it| it.name.raw()).collect();
     assert!(names.contains(&"wasm-function[0]"), "{names:?}");
     assert!(
         names.iter().any(|it| it.ends_with("#next-move")),

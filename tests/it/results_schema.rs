@@ -109,7 +109,7 @@ fn play(seeds: Seeds) -> (Results, Vec<u8>) {
     let executor = InProcess::new(Limits::with_sandbox(rules.sandbox), 1, None);
     let executor = Broken(executor.expect("address space"));
     let entrant = |name: &str, file: &[u8]| Entrant {
-        name: name.to_owned(),
+        name: name.into(),
         digest: Digest::of(file),
         variant: 0,
         admission: match executor.admit(file).expect("the host works") {
@@ -119,7 +119,7 @@ fn play(seeds: Seeds) -> (Results, Vec<u8>) {
     };
     let component = |name| bundled::find(name).expect("it is bundled").component;
     let loaded = |name: &str, maze| MazeSource::Loaded {
-        name: name.to_owned(),
+        name: name.into(),
         maze: Arc::new(maze),
     };
     let official = wasmouse_core::maze::bundled()[0];

@@ -226,7 +226,7 @@ fn play(executor: Box<dyn Executor>, robots: &[&[u8]], seeds: Seeds) -> (Missing
     let entrants = robots.iter().map(|file| {
         let robot = executor.admit(file).expect("the host works");
         Entrant {
-            name: "robot".to_owned(),
+            name: "robot".into(),
             digest: Digest::of(file),
             variant: 0,
             admission: Ok(Arc::new(robot.unwrap_or_else(|it| panic!("{it}")))),
@@ -236,7 +236,10 @@ fn play(executor: Box<dyn Executor>, robots: &[&[u8]], seeds: Seeds) -> (Missing
     let plan = Plan {
         entrants: entrants.collect(),
         mazes: mazes
-            .map(|(name, maze)| MazeSource::Loaded { name, maze })
+            .map(|(name, maze)| MazeSource::Loaded {
+                name: name.into(),
+                maze,
+            })
             .collect(),
         seeds,
         rules: rules(SandboxLimits::default()),

@@ -403,7 +403,11 @@ fn rejections_are_the_same_in_workers() {
             let rejections = [admission.err(), inspection.rejection];
             rejections.map(|it| {
                 let it: Rejection = it.expect("it is not a robot");
-                (it.name().to_owned(), it.to_string(), it.hint().to_owned())
+                (
+                    it.name().raw().to_owned(),
+                    it.reason(),
+                    it.hint().raw().to_owned(),
+                )
             })
         };
         assert_eq!(rejection(&there), rejection(&here));
@@ -443,7 +447,7 @@ fn a_backtrace_names_the_functions() {
         ..Module::default()
     };
     let frames = backtrace(&robot.component());
-    let functions: Vec<&str> = frames.iter().map(|it| it.function.as_str()).collect();
+    let functions: Vec<&str> = frames.iter().map(|it| it.function.raw()).collect();
     assert_eq!(functions[0], "plan");
     assert_eq!(functions[1], "x".repeat(160));
     assert_eq!(functions.len(), 3, "{functions:?}");
@@ -463,7 +467,7 @@ fn a_backtrace_has_source_lines() {
     let line_of = |what: &str| text.wat().lines().position(|line| line.contains(what));
     for (frame, what) in frames.iter().zip(["unreachable", "call $inner"]) {
         let line = line_of(what).expect("it is in the text") + 1;
-        let source = frame.source.as_deref().unwrap_or_default();
+        let source = frame.source.as_ref().map_or("", |it| it.raw());
         assert!(
             source.starts_with(&format!("src/robot.wat:{line}:")),
             "{frames:?}"

@@ -44,7 +44,7 @@ impl Stage {
             let component = bundled::find(name).expect("a bundled robot").component;
             let admission = executor.admit(component).expect("the host works");
             Entrant {
-                name: name.to_owned(),
+                name: name.into(),
                 digest: Digest::of(component),
                 variant,
                 admission: Ok(Arc::new(admission.expect("a robot"))),
@@ -55,7 +55,7 @@ impl Stage {
             entrants: entrants.collect(),
             mazes: mazes
                 .map(|(name, maze)| MazeSource::Loaded {
-                    name,
+                    name: name.into(),
                     maze: Arc::new(maze),
                 })
                 .collect(),

@@ -70,7 +70,7 @@ pub fn all(
         match found {
             Ok(Some(frames)) if !frames.is_empty() => backtraces.push(backtrace(name, &frames)),
             Ok(_) => {}
-            Err(error) => message!("warning: no backtrace of `{}`: {}", name, error),
+            Err(error) => message!("warning: no backtrace of `{}`: {}", name.escaped(), error),
         }
     }
     backtraces

@@ -34,8 +34,8 @@ pub fn print(
     let (_, trace) =
         trace(&maze.maze, &plan.rules.game, &recording.transcript).map_err(Failure::internal)?;
     let text = explain(&Explained {
-        robot: &plan.entrants[again.player.entrants[0]].name,
-        maze_name: &maze.name,
+        robot: plan.entrants[again.player.entrants[0]].name.as_guest(),
+        maze_name: maze.name.as_guest(),
         maze: &maze.maze,
         rules: &plan.rules.game,
         record: &again.detailed.record,

@@ -6,7 +6,6 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use wasmouse_core::GuestText;
-use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::journal::Journal;
 use wasmouse_core::replay::{NAME_CHARS_MAX, Replay, ReplayParts};
 use wasmouse_engine::Executor;
@@ -169,11 +168,11 @@ fn replay(
         transcript: played.transcript.clone(),
         journal,
     })
-    .map_err(|error| Failure::internal(text!("the replay of `{}`: {}", robot, error)))
+    .map_err(|error| Failure::internal(text!("the replay of `{}`: {}", robot.escaped(), error)))
 }
 
-fn shortened(name: &str) -> GuestText {
-    let (short, _) = GuestStr::from(name).cut(NAME_CHARS_MAX);
+fn shortened(name: &GuestText) -> GuestText {
+    let (short, _) = name.as_guest().cut(NAME_CHARS_MAX);
     short.into()
 }
 
@@ -193,8 +192,8 @@ fn journal(kept: &BestMatch, plan: &Plan, players: &[Player], executor: &dyn Exe
     let robot = &plan.entrants[players[kept.played.player].entrants[0]].name;
     message!(
         "warning: the replay of `{}` in `{}` has no journal: {}",
-        robot,
-        kept.maze.name,
+        robot.escaped(),
+        kept.maze.name.escaped(),
         problem
     );
     Journal::default()

@@ -10,10 +10,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use wasmouse_core::Digest;
 use wasmouse_core::maze::format::{self, Format, ParseError, Parsed, TEXT_BYTES_MAX};
 use wasmouse_core::maze::generate::{GenSpec, GeneratedMaze};
 use wasmouse_core::maze::{BundledMaze, Maze, bundled, violations};
+use wasmouse_core::{Digest, GuestText};
 
 use super::failure::Failure;
 use super::input;
@@ -139,7 +139,7 @@ pub fn load_requests(
     hint: &'static str,
 ) -> Result<Vec<Option<MazeSource>>, Failure> {
     let names = unique_names(requests.iter().map(|it| &it.source));
-    let load = |(request, name): (&Request, String)| {
+    let load = |(request, name): (&Request, GuestText)| {
         let loaded = request.source.load(name, request.rules, hint);
         match loaded {
             Err(failure) if request.bad_files == BadFiles::Skip => {
@@ -160,8 +160,8 @@ pub fn distinct(mazes: Vec<MazeSource>) -> Vec<MazeSource> {
         if let Some(twin) = &twin {
             message!(
                 "warning: skipped `{}`, which is the same maze as `{}`",
-                maze.name(),
-                twin
+                maze.name().escaped(),
+                twin.escaped()
             );
         }
         twin.is_none()
@@ -174,13 +174,13 @@ pub fn distinct(mazes: Vec<MazeSource>) -> Vec<MazeSource> {
 /// The mazes of a contest by now.
 #[derive(Default)]
 struct Seen {
-    loaded: HashMap<Digest, String>,
+    loaded: HashMap<Digest, GuestText>,
     generated: HashSet<GeneratedMaze>,
 }
 
 impl Seen {
     /// The name under which the same maze was given before.
-    fn twin(&mut self, maze: &MazeSource) -> Option<String> {
+    fn twin(&mut self, maze: &MazeSource) -> Option<GuestText> {
         match maze {
             MazeSource::Loaded { name, maze } => match self.loaded.entry(maze.digest()) {
                 Entry::Occupied(twin) => Some(twin.get().clone()),
@@ -191,7 +191,7 @@ impl Seen {
             },
             MazeSource::Generated(maze) => {
                 let is_new = self.generated.insert(*maze);
-                (!is_new).then(|| maze.to_string())
+                (!is_new).then(|| maze.to_string().into())
             }
         }
     }
@@ -203,7 +203,7 @@ pub struct NamedMaze {
     /// The bundled name, the specification of a generated maze, or the file name without its
     /// extension. Two files of the same name in different folders are named by their paths
     /// instead.
-    pub name: String,
+    pub name: GuestText,
     /// The maze.
     pub maze: Arc<Maze>,
 }
@@ -218,7 +218,7 @@ pub fn load_all(arguments: &[String], rules: Legality) -> Result<Vec<NamedMaze>,
     let named = sources.into_iter().map(|source| match source {
         MazeSource::Loaded { name, maze } => NamedMaze { name, maze },
         MazeSource::Generated(generated) => NamedMaze {
-            name: generated.to_string(),
+            name: generated.to_string().into(),
             maze: Arc::new(generated.generate()),
         },
     });
@@ -279,12 +279,12 @@ pub fn at_path(path: &Path) -> Result<Option<Vec<Source>>, Failure> {
 
 impl Source {
     /// What messages and listings call it: the name, the path, or `-`.
-    pub fn label(&self) -> String {
+    pub fn label(&self) -> GuestText {
         match self {
-            Self::Generated(maze) => maze.to_string(),
-            Self::Bundled(maze) => maze.name.to_owned(),
-            Self::File(path) => shown(path),
-            Self::Stdin => STDIN.to_owned(),
+            Self::Generated(maze) => maze.to_string().into(),
+            Self::Bundled(maze) => maze.name.into(),
+            Self::File(path) => shown(path).into(),
+            Self::Stdin => STDIN.into(),
         }
     }
 
@@ -309,7 +309,7 @@ impl Source {
     /// The maze for a contest under that name.
     fn load(
         &self,
-        name: String,
+        name: GuestText,
         rules: Legality,
         hint: &'static str,
     ) -> Result<MazeSource, Failure> {
@@ -327,7 +327,10 @@ impl Source {
 
     fn parse(&self, bytes: Vec<u8>) -> Result<Parsed, Failure> {
         let failed = |reason: &dyn std::fmt::Display| {
-            Failure::input(format!("failed to parse maze `{}`: {reason}", self.label()))
+            Failure::input(format!(
+                "failed to parse maze `{}`: {reason}",
+                self.label().escaped()
+            ))
         };
         let text = String::from_utf8(bytes).map_err(|error| {
             let place = error.utf8_error().valid_up_to();
@@ -343,19 +346,20 @@ impl Source {
     }
 
     /// What results call it, if nothing else is called so.
-    pub fn short_name(&self) -> String {
+    pub fn short_name(&self) -> GuestText {
         match self {
             Self::File(path) => path
                 .file_stem()
-                .map_or_else(|| shown(path), |stem| shown(Path::new(stem))),
+                .map_or_else(|| shown(path), |stem| shown(Path::new(stem)))
+                .into(),
             Self::Generated(_) | Self::Bundled(_) | Self::Stdin => self.label(),
         }
     }
 }
 
 /// The short names, or the labels of those sources that share a short name with another.
-fn unique_names<'a>(sources: impl Iterator<Item = &'a Source> + Clone) -> Vec<String> {
-    let mut labels: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+fn unique_names<'a>(sources: impl Iterator<Item = &'a Source> + Clone) -> Vec<GuestText> {
+    let mut labels: BTreeMap<GuestText, BTreeSet<GuestText>> = BTreeMap::new();
     for source in sources.clone() {
         // The name of a generated maze is unique already, and there can be a million of them.
         if !matches!(source, Source::Generated(_)) {
@@ -364,7 +368,7 @@ fn unique_names<'a>(sources: impl Iterator<Item = &'a Source> + Clone) -> Vec<St
         }
     }
     let unique = |source: &Source| match source {
-        Source::Generated(_) => String::new(),
+        Source::Generated(_) => GuestText::new(),
         _ if labels[&source.short_name()].len() == 1 => source.short_name(),
         _ => source.label(),
     };
@@ -421,7 +425,7 @@ fn require_legal(source: &Source, maze: &Maze, hint: &'static str) -> Result<(),
     let rules = if broken.len() == 1 { "rule" } else { "rules" };
     let mut message = text!(
         "maze `{}` breaks {} contest {}:",
-        source.label(),
+        source.label().escaped(),
         broken.len(),
         rules
     );
@@ -474,7 +478,7 @@ mod tests {
         path.to_str().expect("UTF-8").to_owned()
     }
 
-    fn names(specs: &[String]) -> Vec<String> {
+    fn names(specs: &[String]) -> Vec<GuestText> {
         let mazes = load(specs, Legality::Lenient, BadFiles::Fail).expect("mazes");
         mazes.iter().map(MazeSource::name).collect()
     }
@@ -515,7 +519,7 @@ mod tests {
         let both = [spec(&folder, "a.txt"), spec(&folder, "deeper/d.txt")];
         assert_eq!(names(&both), ["a", "d"]);
         let mazes = load(&both, Legality::Contest, BadFiles::Fail).expect("two mazes");
-        let names: Vec<String> = distinct(mazes).iter().map(MazeSource::name).collect();
+        let names: Vec<GuestText> = distinct(mazes).iter().map(MazeSource::name).collect();
         assert_eq!(names, ["a"], "both files have the same maze");
     }
 
@@ -524,7 +528,7 @@ mod tests {
         let text = bundled()[0].text;
         let folder = folder_of(&[("x/a.txt", text), ("y/a.txt", text)]);
         let specs = [spec(&folder, "x"), spec(&folder, "y")];
-        let expected = [spec(&folder, "x/a.txt"), spec(&folder, "y/a.txt")];
+        let expected = ["x/a.txt", "y/a.txt"].map(|it| GuestText::from(spec(&folder, it)));
         assert_eq!(names(&specs), expected);
     }
 

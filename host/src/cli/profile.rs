@@ -121,7 +121,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
                 name,
                 rejection.reason().escaped()
             ))
-            .hint(rejection.hint()));
+            .hint(rejection.hint().escaped()));
         }
         Err(NotAdmitted::Failed(reason)) => {
             let message = text!("`{}` could not be admitted: {}", name, reason.escaped());
@@ -151,8 +151,8 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     let record = &played.record;
     let verdict = record.verdict.title();
     let profiled = ProfiledMatch {
-        robot: &entrant.name,
-        maze: &maze.name,
+        robot: entrant.name.as_guest(),
+        maze: maze.name.as_guest(),
         seed: args.seed,
         verdict: &verdict,
         steps: played.recording.step_fuel.len() as u64,

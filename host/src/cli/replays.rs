@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::journal::Journal;
 use wasmouse_core::maze::generate::GenSpec;
 use wasmouse_core::replay::{BYTES_MAX, Replay, ReplayFileError, ReplayParts};
@@ -62,8 +63,8 @@ impl SourceArgs {
                 let replay = read(file)?;
                 let parts = replay.parts();
                 if self.means(
-                    parts.robot.raw(),
-                    parts.maze_name.raw(),
+                    parts.robot.as_guest(),
+                    parts.maze_name.as_guest(),
                     parts.record.key.seed,
                 ) {
                     replays.push(replay);
@@ -85,7 +86,7 @@ impl SourceArgs {
         self.links.iter().find_map(|link| link.step)
     }
 
-    fn means(&self, robot: &str, maze: &str, seed: u64) -> bool {
+    fn means(&self, robot: GuestStr<'_>, maze: GuestStr<'_>, seed: u64) -> bool {
         self.links.is_empty() || self.links.iter().any(|it| it.has_match(robot, maze, seed))
     }
 
@@ -156,8 +157,8 @@ pub fn read(path: &Path) -> Result<Replay, Failure> {
 /// The replay of a match in a store, which keeps no journals.
 fn replay_of(kept: KeptMatch) -> Result<Replay, ReplayFileError> {
     Replay::new(ReplayParts {
-        robot: kept.robot.into(),
-        maze_name: kept.maze_name.into(),
+        robot: kept.robot,
+        maze_name: kept.maze_name,
         maze: kept.maze,
         rules: kept.rules,
         record: kept.record,

@@ -7,9 +7,9 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use wasmouse_core::Digest;
 use wasmouse_core::maze::generate::{GenSpec, GeneratedMaze};
 use wasmouse_core::maze::{Maze, bundled as bundled_mazes, format};
+use wasmouse_core::{Digest, GuestText};
 use wasmouse_engine::Trust;
 use wasmouse_engine::bundled::{BundledRobot, bundled as bundled_robots};
 
@@ -39,7 +39,7 @@ pub enum RobotSource {
 
 impl RobotSource {
     /// Whether that is a name which `wasmouse run` gives this robot by itself, with any variant.
-    pub fn is_called(&self, name: &str) -> bool {
+    pub fn is_called(&self, name: &GuestText) -> bool {
         let own = match self {
             Self::Bundled(robot) => robot.name.to_owned(),
             Self::File(path) => match path.file_stem() {
@@ -48,7 +48,7 @@ impl RobotSource {
             },
         };
         // A file that shares its name with another is called by its path.
-        let name = Path::new(name).file_name().unwrap_or_default();
+        let name = Path::new(name.raw()).file_name().unwrap_or_default();
         let rest = name.to_str().and_then(|name| name.strip_prefix(&own));
         rest.is_some_and(|rest| {
             let stripped = rest.strip_prefix(".wasm").or(rest.strip_prefix(".wat"));
@@ -105,7 +105,7 @@ impl Robots {
         if let Some((path, _)) = self.files.iter().find(|it| it.1 == robot.digest) {
             return Found::Same(RobotSource::File(path.clone()));
         }
-        let name = robot.name.split(':').next().unwrap_or_default();
+        let name = robot.name.raw().split(':').next().unwrap_or_default();
         let is_called = |path: &Path| {
             path.file_stem().is_some_and(|stem| stem == name) || path == Path::new(name)
         };
@@ -138,7 +138,7 @@ impl Robots {
 /// Mazes that the user names, and the bundled ones.
 pub struct Mazes {
     by_digest: HashMap<Digest, Arc<Maze>>,
-    by_name: HashMap<String, Digest>,
+    by_name: HashMap<GuestText, Digest>,
 }
 
 impl Mazes {
@@ -199,7 +199,8 @@ impl Mazes {
 }
 
 /// The maze that a name generates, when it names a single one.
-fn generated(name: &str) -> Option<GeneratedMaze> {
+fn generated(name: &GuestText) -> Option<GeneratedMaze> {
+    let name = name.raw();
     let is_meant = GenSpec::is_meant_by(name);
     let spec: GenSpec = is_meant.then(|| name.parse().ok()).flatten()?;
     (spec.count() == 1).then(|| spec.expand().next()).flatten()

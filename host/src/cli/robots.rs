@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use wasmouse_core::Digest;
+use wasmouse_core::{Digest, GuestText, guest_text};
 use wasmouse_engine::bundled::{BundledRobot, Variant, bundled, find};
 use wasmouse_engine::{AdmittedRobot, CacheUse, InfrastructureError, LocalExecutor, Trust};
 
@@ -41,7 +41,7 @@ pub struct RobotSpec {
     source: Source,
     variant: u32,
     /// The name that the user gave it.
-    name: Option<String>,
+    name: Option<GuestText>,
 }
 
 #[derive(Clone, Debug)]
@@ -71,7 +71,7 @@ pub fn is_robot(argument: &str) -> bool {
 /// be built.
 pub fn resolve(argument: &str) -> Result<Vec<RobotSpec>, Failure> {
     let (name, text) = match split_name(argument) {
-        Some((name, rest)) => (Some(name.to_owned()), rest),
+        Some((name, rest)) => (Some(GuestText::from(name)), rest),
         None => (None, argument),
     };
     let (text, variant) = match split_variant(text) {
@@ -219,7 +219,7 @@ impl RobotSpec {
     pub const fn of_bundled(
         robot: &'static BundledRobot,
         variant: u32,
-        name: Option<String>,
+        name: Option<GuestText>,
     ) -> Self {
         Self {
             source: Source::Bundled(robot),
@@ -229,7 +229,7 @@ impl RobotSpec {
     }
 
     /// A robot in a file, in a variant, with a name if it is not that of the file.
-    pub const fn of_file(path: PathBuf, variant: u32, name: Option<String>) -> Self {
+    pub const fn of_file(path: PathBuf, variant: u32, name: Option<GuestText>) -> Self {
         Self {
             source: Source::File(path),
             variant,
@@ -272,36 +272,36 @@ impl RobotSpec {
 
     /// What results call it if nothing else is called so: the given name, or the bundled name
     /// or file name without its extension, with the variant.
-    pub fn short_name(&self) -> String {
+    pub fn short_name(&self) -> GuestText {
         match (&self.name, &self.source) {
             (Some(name), _) => self.with_variant(name.clone()),
-            (None, Source::Bundled(robot)) => self.with_variant(robot.name.to_owned()),
+            (None, Source::Bundled(robot)) => self.with_variant(robot.name.into()),
             (None, Source::File(path)) => {
                 let stem = path.file_stem().unwrap_or(path.as_os_str());
-                self.with_variant(stem.to_string_lossy().into_owned())
+                self.with_variant((&*stem.to_string_lossy()).into())
             }
         }
     }
 
     /// A name that no other robot has: with the whole path.
-    fn label(&self) -> String {
+    fn label(&self) -> GuestText {
         match &self.source {
             Source::Bundled(_) => self.short_name(),
-            Source::File(path) => self.with_variant(path.display().to_string()),
+            Source::File(path) => self.with_variant(path.display().to_string().into()),
         }
     }
 
     /// The name with the variant, by name where it has one.
-    fn with_variant(&self, name: String) -> String {
+    fn with_variant(&self, name: GuestText) -> GuestText {
         if let Source::Bundled(robot) = &self.source {
             let mut variants = robot.variants.iter();
             if let Some(variant) = variants.find(|it| it.value == self.variant) {
-                return format!("{name}:{}", variant.name);
+                return guest_text!("{}:{}", name, variant.name);
             }
         }
         match self.variant {
             0 => name,
-            variant => format!("{name}:{variant}"),
+            variant => guest_text!("{}:{}", name, variant),
         }
     }
 }
@@ -441,10 +441,10 @@ pub fn setup_failure(error: &InfrastructureError) -> Failure {
 /// # Errors
 ///
 /// When two robots have the same name.
-pub fn unique_names(specs: &[RobotSpec]) -> Result<Vec<String>, Failure> {
-    let short: Vec<String> = specs.iter().map(RobotSpec::short_name).collect();
-    let is_shared = |name: &String| short.iter().filter(|it| *it == name).count() > 1;
-    let names: Vec<String> = specs
+pub fn unique_names(specs: &[RobotSpec]) -> Result<Vec<GuestText>, Failure> {
+    let short: Vec<GuestText> = specs.iter().map(RobotSpec::short_name).collect();
+    let is_shared = |name: &GuestText| short.iter().filter(|it| *it == name).count() > 1;
+    let names: Vec<GuestText> = specs
         .iter()
         .zip(&short)
         .map(|(spec, name)| {
@@ -455,7 +455,7 @@ pub fn unique_names(specs: &[RobotSpec]) -> Result<Vec<String>, Failure> {
             }
         })
         .collect();
-    let mut sorted: Vec<&String> = names.iter().collect();
+    let mut sorted: Vec<&GuestText> = names.iter().collect();
     sorted.sort();
     match sorted.windows(2).find(|pair| pair[0] == pair[1]) {
         None => Ok(names),
@@ -479,8 +479,9 @@ mod tests {
         let [spec] = &specs[..] else {
             panic!("{argument} is one robot");
         };
-        let found = (spec.label(), spec.variant, spec.name.as_deref());
-        assert_eq!(found, (label.to_owned(), variant, name), "{argument}");
+        let found = (spec.label(), spec.variant, spec.name.clone());
+        let expected = (label.into(), variant, name.map(GuestText::from));
+        assert_eq!(found, expected, "{argument}");
     }
 
     #[test]
@@ -529,7 +530,7 @@ mod tests {
         }
         let argument = folder.path().to_str().expect("UTF-8");
         assert!(is_robot(argument));
-        let names: Vec<String> = resolve(argument)
+        let names: Vec<GuestText> = resolve(argument)
             .expect("robots")
             .iter()
             .map(RobotSpec::short_name)

@@ -50,7 +50,7 @@ pub fn play(
                     Text::of_path(robot),
                     rejection.reason().escaped()
                 );
-                return Err(Failure::robot(message).hint(rejection.hint()));
+                return Err(Failure::robot(message).hint(rejection.hint().escaped()));
             }
             Err(NotAdmitted::Failed(reason)) => return Err(Failure::internal(reason.escaped())),
         }

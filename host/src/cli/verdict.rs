@@ -23,7 +23,9 @@ pub fn exit(plan: &Plan, results: &Results) -> Exit {
     for entry in &summary.withdrawn {
         let mut robots = results.contest.robots.iter();
         let is_meant = |it: &&RobotEntry| it.digest == entry.robot && it.variant == entry.variant;
-        let robot = robots.find(is_meant).map_or("?", |it| it.name.as_str());
+        let robot = robots
+            .find(is_meant)
+            .map_or("?".into(), |it| it.name.as_guest());
         message!(
             "withdrawn `{}`: {}; {} of its matches were not played\n  \
              hint: --match-time and --robot-time allow more",
@@ -78,7 +80,7 @@ pub fn print_faults(
                 "rejected `{}`: {}\n  hint: {}",
                 for_terminal(&entrant.name),
                 for_terminal(&rejection.reason()),
-                rejection.hint()
+                rejection.hint().escaped()
             );
         }
     }

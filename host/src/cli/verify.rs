@@ -165,7 +165,7 @@ impl Available {
 impl Required {
     fn lacks<T>(
         &mut self,
-        (kind, name, digest): (NeededKind, &str, wasmouse_core::Digest),
+        (kind, name, digest): (NeededKind, &GuestText, wasmouse_core::Digest),
         field: &str,
         found: &Found<T>,
     ) {
@@ -177,7 +177,7 @@ impl Required {
             }),
             Found::Same(_) | Found::Nothing => self.not_found.push(NotFound {
                 kind,
-                name: name.to_owned(),
+                name: name.clone(),
                 digest,
             }),
         }
@@ -322,7 +322,7 @@ fn not_played(recorded: &Results, found: &Results) -> Option<GuestText> {
     let withdrawn = found.summary.withdrawn.first()?;
     let mut robots = found.contest.robots.iter();
     let robot = robots.find(|it| it.digest == withdrawn.robot && it.variant == withdrawn.variant);
-    let name = robot.map_or("?", |it| it.name.as_str());
+    let name = robot.map_or("?".into(), |it| it.name.as_guest());
     Some(guest_text!(
         "`{}` was withdrawn: {}",
         name,
@@ -374,7 +374,7 @@ fn warn_about_names(recorded: &Results, sources: &[RobotSource]) {
                 "warning: the result calls {} `{}` (SHA-256 {}); names are labels and are not \
                  verified",
                 source.label(),
-                entry.name,
+                entry.name.escaped(),
                 entry.digest
             );
         }

@@ -145,10 +145,10 @@ mod tests {
         let rules = Ruleset::default();
         let digest = Digest::of(b"");
         let seeds = Seeds { first: 0, count: 3 };
-        let robot = MatrixRobot::new("minnett".to_owned(), digest, 0);
+        let robot = MatrixRobot::new("minnett", digest, 0);
         let mut matrix = ScoreMatrix::new(rules.clone(), seeds, vec![robot]);
         matrix.push_maze(MatrixMaze {
-            name: "test_maze_01".to_owned(),
+            name: "test_maze_01".into(),
             digest,
             dimension: 12,
             oracle: Some(rules.game.score(17, 18)),

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use wasmouse_core::maze::Maze;
 use wasmouse_core::maze::format::{self, Format};
 use wasmouse_core::maze::generate::GenSpec;
-use wasmouse_core::{Digest, DigestBuilder};
+use wasmouse_core::{Digest, DigestBuilder, GuestText};
 
 use super::maze_source::MazeSource;
 
@@ -69,7 +69,7 @@ pub struct OpenedSet {
 #[serde(deny_unknown_fields)]
 pub struct OpenedMaze {
     /// What results call it; the specification of a generated maze.
-    pub name: String,
+    pub name: GuestText,
     /// Its digest.
     pub digest: Digest,
     /// The maze in the format `competition`; `None` for a generated maze, which anyone can
@@ -83,7 +83,7 @@ impl OpenedSet {
     pub fn new(name: String, salt: Digest, mazes: &[MazeSource]) -> Self {
         let opened = |source: &MazeSource| match source {
             MazeSource::Generated(generated) => OpenedMaze {
-                name: generated.to_string(),
+                name: generated.to_string().into(),
                 digest: generated.generate().digest(),
                 text: None,
             },
@@ -115,7 +115,9 @@ impl OpenedSet {
             .digest(&self.salt)
             .numbers(&[self.mazes.len() as u64]);
         let add = |builder: DigestBuilder, maze: &OpenedMaze| {
-            builder.bytes(maze.name.as_bytes()).digest(&maze.digest)
+            builder
+                .bytes(maze.name.raw().as_bytes())
+                .digest(&maze.digest)
         };
         self.mazes.iter().fold(builder, add).finish()
     }
@@ -208,7 +210,7 @@ impl OpenedMaze {
             let parsed = format::parse_as(text, Format::Competition);
             return parsed.map(|it| it.maze).map_err(|error| error.to_string());
         }
-        let spec: GenSpec = self.name.parse().map_err(|error| {
+        let spec: GenSpec = self.name.raw().parse().map_err(|error| {
             format!("it has no text, and its name does not generate it: {error}")
         })?;
         let mut mazes = spec.expand();
@@ -219,7 +221,7 @@ impl OpenedMaze {
     }
 
     /// The name with the reason when the maze is not the one of the digest.
-    fn check(&self) -> Option<(String, String)> {
+    fn check(&self) -> Option<(GuestText, String)> {
         let reason = match self.maze() {
             Ok(maze) if maze.digest() == self.digest => return None,
             Ok(_) => "it has another digest".to_owned(),
@@ -271,10 +273,10 @@ pub enum Broken {
         name: String,
     },
     /// A maze is not what it is said to be.
-    #[error("maze `{name}`: {reason}")]
+    #[error("maze `{}`: {reason}", name.escaped())]
     Maze {
         /// The maze.
-        name: String,
+        name: GuestText,
         /// Why.
         reason: String,
     },
@@ -292,7 +294,7 @@ mod tests {
         let first = &bundled()[0];
         let text = format::parse(first.text).expect("a bundled maze");
         let loaded = MazeSource::Loaded {
-            name: first.name.to_owned(),
+            name: first.name.into(),
             maze: Arc::new(text.maze),
         };
         let spec: GenSpec = "gen:tree:12:3".parse().expect("a specification");
@@ -342,7 +344,7 @@ mod tests {
                 OTHER,
             ],
         );
-        let generated = |it: &mut Opening, name: &str| it.sets[0].mazes[1].name = name.to_owned();
+        let generated = |it: &mut Opening, name: &str| it.sets[0].mazes[1].name = name.into();
         check_change(
             |it| generated(it, "gen:tree,loops=12:12:4"),
             &[

@@ -36,11 +36,11 @@ pub struct ScoreMatrix {
 #[derive(Clone, Debug)]
 pub struct MatrixRobot {
     /// What the standings call it. Names are unique.
-    pub name: String,
+    pub name: GuestText,
     /// Who submitted it, if that is known.
-    pub author: Option<String>,
+    pub author: Option<GuestText>,
     /// The class that it competes in, such as a fuel class.
-    pub class: Option<String>,
+    pub class: Option<GuestText>,
     /// The digest of its file.
     pub digest: Digest,
     /// The number that chooses its mode.
@@ -79,7 +79,7 @@ pub struct MazeSet {
 #[derive(Clone, Debug)]
 pub struct MatrixMaze {
     /// What results call it.
-    pub name: String,
+    pub name: GuestText,
     /// Its digest.
     pub digest: Digest,
     /// Cells along a side.
@@ -145,9 +145,9 @@ impl MatchScore {
 
 impl MatrixRobot {
     /// A robot without matches.
-    pub fn new(name: String, digest: Digest, variant: u32) -> Self {
+    pub fn new(name: impl Into<GuestText>, digest: Digest, variant: u32) -> Self {
         Self {
-            name,
+            name: name.into(),
             author: None,
             class: None,
             digest,

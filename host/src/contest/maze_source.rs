@@ -2,16 +2,16 @@
 
 use std::sync::Arc;
 
-use wasmouse_core::Digest;
 use wasmouse_core::game::{GameRules, Score};
 use wasmouse_core::maze::Maze;
 use wasmouse_core::maze::generate::GeneratedMaze;
+use wasmouse_core::{Digest, GuestText};
 
 /// A maze that is ready to be played.
 #[derive(Clone, Debug)]
 pub struct ContestMaze {
     /// What results call it.
-    pub name: String,
+    pub name: GuestText,
     /// The maze.
     pub maze: Arc<Maze>,
     /// Its digest.
@@ -28,7 +28,7 @@ pub enum MazeSource {
     /// It has been read.
     Loaded {
         /// What results call it.
-        name: String,
+        name: GuestText,
         /// The maze.
         maze: Arc<Maze>,
     },
@@ -38,10 +38,10 @@ pub enum MazeSource {
 
 impl MazeSource {
     /// What results call it.
-    pub fn name(&self) -> String {
+    pub fn name(&self) -> GuestText {
         match self {
             Self::Loaded { name, .. } => name.clone(),
-            Self::Generated(maze) => maze.to_string(),
+            Self::Generated(maze) => maze.to_string().into(),
         }
     }
 

@@ -16,7 +16,7 @@ use super::maze_source::{ContestMaze, MazeSource};
 #[derive(Clone)]
 pub struct Entrant {
     /// What the standings call it.
-    pub name: String,
+    pub name: GuestText,
     /// The digest of the file that was submitted.
     pub digest: Digest,
     /// The number that chooses its mode.

@@ -60,7 +60,7 @@ pub struct ContestInfo {
 #[serde(deny_unknown_fields)]
 pub struct RobotEntry {
     /// What the standings call it.
-    pub name: String,
+    pub name: GuestText,
     /// The SHA-256 of its file.
     pub digest: Digest,
     /// The number that chooses its mode.
@@ -85,19 +85,19 @@ impl RobotEntry {
 #[serde(deny_unknown_fields)]
 pub struct RejectionEntry {
     /// A short name: lowercase letters and hyphens.
-    pub kind: String,
+    pub kind: GuestText,
     /// Why.
     pub reason: GuestText,
     /// What to do.
-    pub hint: String,
+    pub hint: GuestText,
 }
 
 impl From<&Rejection> for RejectionEntry {
     fn from(rejection: &Rejection) -> Self {
         Self {
-            kind: rejection.name().to_owned(),
+            kind: rejection.name().into(),
             reason: rejection.reason(),
-            hint: rejection.hint().to_owned(),
+            hint: rejection.hint().into(),
         }
     }
 }
@@ -153,7 +153,7 @@ pub struct WithdrawalEntry {
 #[serde(deny_unknown_fields)]
 pub struct MazeEntry {
     /// What results call it.
-    pub name: String,
+    pub name: GuestText,
     /// Its digest.
     pub digest: Digest,
     /// Cells along a side.
@@ -210,10 +210,7 @@ impl<'a> Names<'a> {
         let mut names = Self::default();
         for robot in robots {
             let key = (robot.digest, robot.variant);
-            names
-                .robots
-                .entry(key)
-                .or_insert(robot.name.as_str().into());
+            names.robots.entry(key).or_insert(robot.name.as_guest());
         }
         for maze in mazes {
             names.mazes.entry(maze.digest).or_insert(maze);
@@ -234,7 +231,8 @@ impl<'a> Names<'a> {
 
     /// The name of the maze of a match; `?` when it is not listed.
     pub fn maze_name(&self, key: &MatchKey) -> GuestStr<'a> {
-        self.maze(key).map_or("?", |maze| &maze.name).into()
+        self.maze(key)
+            .map_or("?".into(), |maze| maze.name.as_guest())
     }
 }
 

@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use std::io;
 
 use serde::{Deserialize, Serialize};
-use wasmouse_core::Digest;
 use wasmouse_core::game::Score;
+use wasmouse_core::{Digest, GuestText};
 
 use super::maze_source::ContestMaze;
 use super::mean::Mean;
@@ -36,7 +36,7 @@ pub struct Standing {
     /// played by every robot.
     pub rank: Option<u32>,
     /// The entrant's name.
-    pub robot: String,
+    pub robot: GuestText,
     /// Matches played in the ranked mazes.
     pub matches: u64,
     /// Matches finished with a score.

@@ -1,5 +1,6 @@
 //! [`backtrace`]: where a robot was in its code when it failed, as text.
 
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_engine::{Frame, FramePart};
 
 use super::escape::for_terminal;
@@ -7,10 +8,10 @@ use super::escape::for_terminal;
 /// The frames, most recent call first, one line each; those of a runtime or an interpreter that
 /// follow each other are one line. The first line names the robot and, if it is known, the line of
 /// source code that failed. Does not end with a newline.
-pub fn backtrace(robot: &str, frames: &[Frame]) -> String {
+pub fn backtrace<'a>(robot: impl Into<GuestStr<'a>>, frames: &[Frame]) -> String {
     let parts = Frame::folded(frames);
     let own = parts.iter().find_map(|part| match part {
-        FramePart::Frame(frame) => frame.source.as_deref(),
+        FramePart::Frame(frame) => frame.source.as_ref(),
         FramePart::Folded { .. } => None,
     });
     let mut lines = format!("backtrace of `{}`", for_terminal(robot));
@@ -40,14 +41,16 @@ pub fn backtrace(robot: &str, frames: &[Frame]) -> String {
 
 #[cfg(test)]
 mod tests {
+    use wasmouse_core::GuestText;
+
     use super::*;
 
     #[test]
     fn runtimes_are_one_line_and_the_own_source_comes_first() {
         let frame = |function: &str, source: Option<&str>| Frame {
-            function: function.to_owned(),
+            function: function.into(),
             offset: Some(0x1f),
-            source: source.map(str::to_owned),
+            source: source.map(GuestText::from),
         };
         let frames = [
             frame(

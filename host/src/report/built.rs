@@ -3,6 +3,7 @@
 
 use std::time::Duration;
 
+use wasmouse_core::GuestText;
 use wasmouse_core::game::{FuelClass, Verdict};
 use wasmouse_core::record::MatchRecord;
 
@@ -16,7 +17,7 @@ pub const CLASS_STEPS: u64 = 1000;
 #[derive(Debug)]
 pub struct SampleMatch {
     /// What the maze is called.
-    pub maze: String,
+    pub maze: GuestText,
     /// What came of it.
     pub record: MatchRecord,
     /// Processor time; includes what the host does.
@@ -46,7 +47,7 @@ pub fn samples(samples: &[SampleMatch]) -> Text {
         lines = text!(
             "{}  match    {}: {}, {} ms\n",
             lines,
-            maze,
+            maze.escaped(),
             ending(record),
             format!("{:.1}", time.as_secs_f64() * 1e3)
         );

@@ -28,7 +28,7 @@
 use std::collections::BTreeSet;
 
 use serde::Serialize;
-use wasmouse_core::Digest;
+use wasmouse_core::{Digest, GuestText};
 
 use super::escape::for_terminal;
 use super::json;
@@ -58,7 +58,7 @@ pub struct Comparisons {
 
 #[derive(Serialize)]
 struct Robot {
-    name: String,
+    name: GuestText,
     digest: Digest,
     variant: u32,
     admitted: bool,
@@ -70,8 +70,8 @@ struct Robot {
 
 #[derive(Serialize)]
 struct Comparison {
-    first: String,
-    second: String,
+    first: GuestText,
+    second: GuestText,
     #[serde(flatten)]
     all: PairedNumbers,
     by_size: Vec<OfSize>,
@@ -313,7 +313,7 @@ mod tests {
     #[test]
     fn untrusted_names_are_escaped() {
         let mut matrix = matrix(&[12; 8]);
-        matrix.robots[1].name = "b\u{1b}[31m\nhint: x".to_owned();
+        matrix.robots[1].name = "b\u{1b}[31m\nhint: x".into();
         let text = text(&matrix);
         let is_harmful = |c: char| c.is_control() && c != '\n';
         assert!(

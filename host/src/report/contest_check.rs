@@ -1,8 +1,10 @@
 //! What `wasmouse contest check` prints: who plays what in a contest.
 
+use wasmouse_core::GuestText;
+use wasmouse_core::game::Ruleset;
+
 use super::escape::for_terminal;
 use crate::contest::{MazeSet, Seeds};
-use wasmouse_core::game::Ruleset;
 
 /// A contest before it is played.
 pub struct Overview<'a> {
@@ -27,11 +29,11 @@ pub struct Overview<'a> {
 /// A robot of an [`Overview`].
 pub struct RobotLine {
     /// What results call it.
-    pub name: String,
+    pub name: GuestText,
     /// Who submitted it.
-    pub author: Option<String>,
+    pub author: Option<GuestText>,
     /// The class that it declares.
-    pub class: Option<String>,
+    pub class: Option<GuestText>,
     /// Its file; `None` if it is bundled.
     pub file: Option<String>,
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use wasmouse_core::Digest;
+use wasmouse_core::{Digest, GuestText};
 
 use super::text::text;
 use crate::contest::ScoreMatrix;
@@ -24,7 +24,7 @@ pub struct Status<'a> {
     /// How many matches have two records.
     pub conflicts: u64,
     /// All submissions, the oldest first: name, file, variant, and the kind of its rejection.
-    pub submissions: Vec<(String, Digest, u32, Option<String>)>,
+    pub submissions: Vec<(GuestText, Digest, u32, Option<GuestText>)>,
 }
 
 /// Some lines about the contest, one for each robot, and one for each submission. Ends with a
@@ -58,7 +58,11 @@ pub fn contest_status(status: &Status<'_>) -> String {
         let played = mazes
             .flat_map(|maze| seeds.clone().map(move |seed| (maze, seed)))
             .filter(|&(maze, seed)| matrix.get(index, maze, seed).is_some());
-        line(text!("  {}: {} matches", robot.name, played.count()));
+        line(text!(
+            "  {}: {} matches",
+            robot.name.escaped(),
+            played.count()
+        ));
         for (kind, fault) in &robot.faults {
             line(text!("    {} times {}", fault.count, kind));
         }
@@ -70,10 +74,11 @@ pub fn contest_status(status: &Status<'_>) -> String {
     for (name, digest, variant, rejection) in &status.submissions {
         let digest = digest.to_string();
         let rejection = rejection.as_ref();
-        let rejection = rejection.map_or_else(String::new, |it| format!(", rejected: {it}"));
+        let rejection =
+            rejection.map_or_else(String::new, |it| format!(", rejected: {}", it.escaped()));
         line(text!(
             "  {}: {}, variant {}{}",
-            name,
+            name.escaped(),
             &digest[..12],
             variant,
             rejection

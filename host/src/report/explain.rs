@@ -22,10 +22,10 @@ const INDENT: &str = "        ";
 /// A match, with everything that the robot left behind.
 #[derive(Clone, Copy, Debug)]
 pub struct Explained<'a> {
-    /// The robot's name, unescaped.
-    pub robot: &'a str,
+    /// The robot's name.
+    pub robot: GuestStr<'a>,
     /// The maze's name, unescaped.
-    pub maze_name: &'a str,
+    pub maze_name: GuestStr<'a>,
     /// The maze.
     pub maze: &'a Maze,
     /// The rules of the game.
@@ -352,8 +352,8 @@ mod tests {
         let key = results().matches[0].key;
         let record = MatchRecord::new(key, result, usage, &transcript);
         let text = explain(&Explained {
-            robot: HOSTILE,
-            maze_name: "small",
+            robot: HOSTILE.into(),
+            maze_name: "small".into(),
             maze: &maze,
             rules: &rules,
             record: &record,

@@ -89,9 +89,9 @@ impl<'a> InspectionReport<'a> {
             }),
             admitted: rejection.is_none(),
             rejection: rejection.map(|rejection| RejectionEntry {
-                kind: rejection.name().to_owned(),
+                kind: rejection.name().into(),
                 reason: rejection.reason(),
-                hint: rejection.hint().to_owned(),
+                hint: rejection.hint().into(),
             }),
             imports: shape.map(|shape| shape.imports.as_slice()),
             exports: shape.map(|shape| shape.exports.as_slice()),

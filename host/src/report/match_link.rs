@@ -5,6 +5,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_decode_str, utf8_percent_encode};
+use wasmouse_core::guest_text::GuestStr;
 
 /// What stays as it is. Of the rest, a slash has to be encoded because it separates.
 const ENCODED: &AsciiSet = &NON_ALPHANUMERIC
@@ -64,13 +65,23 @@ pub enum ParseLinkError {
 
 impl MatchLink {
     /// Whether that match is meant. A robot without a variant means all variants of it.
-    pub fn has_match(&self, robot: &str, maze: &str, seed: u64) -> bool {
-        let family = robot.split(':').next().unwrap_or_default();
-        let is_robot = |it: &str| it == robot || it == family;
+    pub fn has_match<'a>(
+        &self,
+        robot: impl Into<GuestStr<'a>>,
+        maze: impl Into<GuestStr<'a>>,
+        seed: u64,
+    ) -> bool {
+        let (robot, maze) = (robot.into(), maze.into());
+        let is_robot = |it: &str| robot == it || is_variant(robot, it);
         self.robot.as_deref().is_none_or(is_robot)
-            && self.maze.as_deref().is_none_or(|it| it == maze)
+            && self.maze.as_deref().is_none_or(|it| maze == it)
             && self.seed.is_none_or(|it| it == seed)
     }
+}
+
+/// Whether a robot is called so but for its variant.
+fn is_variant(robot: GuestStr<'_>, name: &str) -> bool {
+    !name.contains(':') && robot.starts_with(&format!("{name}:"))
 }
 
 impl FromStr for MatchLink {

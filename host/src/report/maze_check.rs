@@ -21,9 +21,9 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use wasmouse_core::Digest;
 use wasmouse_core::maze::format::Format;
 use wasmouse_core::maze::{Cell, Maze, Survey, Violation};
+use wasmouse_core::{Digest, GuestText};
 
 use super::json;
 
@@ -58,7 +58,7 @@ impl MazeCheck {
 /// The findings about one maze.
 #[derive(Serialize)]
 pub struct CheckedMaze {
-    source: String,
+    source: GuestText,
     #[serde(flatten)]
     finding: Finding,
 }
@@ -67,7 +67,7 @@ impl CheckedMaze {
     /// A maze that could be read, and the contest rules that it breaks.
     /// `format` is `None` when it did not come from text.
     pub fn read(
-        source: String,
+        source: GuestText,
         maze: &Maze,
         format: Option<Format>,
         violations: &[Violation],
@@ -83,7 +83,7 @@ impl CheckedMaze {
     }
 
     /// A source that could not be read, or does not hold a maze.
-    pub fn unreadable(source: String, error: String) -> Self {
+    pub fn unreadable(source: GuestText, error: String) -> Self {
         let finding = Finding::Unreadable { error };
         Self { source, finding }
     }

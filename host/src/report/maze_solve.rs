@@ -24,9 +24,9 @@
 //! robot that knows the maze.
 
 use serde::Serialize;
-use wasmouse_core::Digest;
 use wasmouse_core::game::Score;
 use wasmouse_core::maze::{Maze, Path};
+use wasmouse_core::{Digest, GuestText};
 
 use super::json;
 
@@ -58,7 +58,7 @@ impl MazeSolve {
 /// One maze and its solution.
 #[derive(Serialize)]
 pub struct SolvedMaze {
-    maze: String,
+    maze: GuestText,
     digest: Digest,
     dimension: u8,
     solution: Option<Solution>,
@@ -66,9 +66,9 @@ pub struct SolvedMaze {
 
 impl SolvedMaze {
     /// The maze of that name with its solution; `None` when the goal cannot be reached.
-    pub fn new(name: &str, maze: &Maze, solution: Option<Solution>) -> Self {
+    pub fn new(name: &GuestText, maze: &Maze, solution: Option<Solution>) -> Self {
         Self {
-            maze: name.to_owned(),
+            maze: name.clone(),
             digest: maze.digest(),
             dimension: maze.dimension(),
             solution,

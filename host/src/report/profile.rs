@@ -5,6 +5,8 @@
 use std::fmt::Write as _;
 
 use serde::Serialize;
+use wasmouse_core::guest_text::GuestStr;
+use wasmouse_core::{GuestText, guest_text};
 use wasmouse_engine::{Profile, ProfileNode};
 
 use super::escape::for_terminal;
@@ -20,10 +22,10 @@ const BEFORE: usize = 49;
 /// What a profile is about.
 #[derive(Clone, Debug)]
 pub struct ProfiledMatch<'a> {
-    /// The robot's name, unescaped.
-    pub robot: &'a str,
-    /// The maze's name, unescaped.
-    pub maze: &'a str,
+    /// The robot's name.
+    pub robot: GuestStr<'a>,
+    /// The maze's name.
+    pub maze: GuestStr<'a>,
     /// The seed.
     pub seed: u64,
     /// How the match ended, in words.
@@ -35,8 +37,8 @@ pub struct ProfiledMatch<'a> {
 }
 
 impl ProfiledMatch<'_> {
-    fn title(&self) -> String {
-        format!("{} in {}, seed {}", self.robot, self.maze, self.seed)
+    fn title(&self) -> GuestText {
+        guest_text!("{} in {}, seed {}", self.robot, self.maze, self.seed)
     }
 
     /// The functions that used most fuel themselves, at most so many, as a table of 80 columns. Ends
@@ -175,7 +177,7 @@ struct Speedscope<'a> {
     #[serde(rename = "$schema")]
     schema: &'static str,
     exporter: &'static str,
-    name: &'a str,
+    name: &'a GuestText,
     active_profile_index: u32,
     shared: Shared<'a>,
     profiles: [Sampled; 1],
@@ -188,7 +190,7 @@ struct Shared<'a> {
 
 #[derive(Serialize)]
 struct SharedFrame<'a> {
-    name: &'a str,
+    name: &'a GuestText,
 }
 
 #[derive(Serialize)]
@@ -226,9 +228,7 @@ mod tests {
         ];
         Profile {
             functions: names
-                .map(|name| ProfiledFunction {
-                    name: name.to_owned(),
-                })
+                .map(|name| ProfiledFunction { name: name.into() })
                 .into(),
             nodes: vec![
                 node(None, 0, 100, 3),
@@ -243,8 +243,8 @@ mod tests {
 
     fn played(profile: &Profile) -> ProfiledMatch<'_> {
         ProfiledMatch {
-            robot: "flood",
-            maze: HOSTILE,
+            robot: "flood".into(),
+            maze: HOSTILE.into(),
             seed: 7,
             verdict: "finished",
             steps: 3,

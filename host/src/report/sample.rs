@@ -40,18 +40,18 @@ fn verdicts() -> [Verdict; 4] {
 /// The results of a contest of three robots, of which one was rejected, in 2 of 200 mazes.
 pub(super) fn results() -> Results {
     let robots = ["a", HOSTILE, "rejected"].map(|name| RobotEntry {
-        name: name.to_owned(),
+        name: name.into(),
         digest: Digest::of(name.as_bytes()),
         variant: 0,
         rejection: (name == "rejected").then(|| RejectionEntry {
-            kind: "unknown-import".to_owned(),
+            kind: "unknown-import".into(),
             reason: format!("it imports {HOSTILE}").into(),
-            hint: "build it without".to_owned(),
+            hint: "build it without".into(),
         }),
         failure: None,
     });
     let mazes = ["test_maze_01", HOSTILE].map(|name| MazeEntry {
-        name: name.to_owned(),
+        name: name.into(),
         digest: Digest::of(name.as_bytes()),
         dimension: 12,
         oracle: (name != HOSTILE).then(|| Score::new(17, 18, 30)),
@@ -94,7 +94,7 @@ pub(super) fn results() -> Results {
     }];
     let line = |rank, robot: &str, finished, mean| Standing {
         rank,
-        robot: robot.to_owned(),
+        robot: robot.into(),
         matches: u64::from(rank.is_some()),
         finished,
         goal_reached: 0,

@@ -11,7 +11,7 @@ pub(super) fn matrix(sizes: &[u8]) -> ScoreMatrix {
     let rules = Ruleset::default();
     let robots = ["a", "b", "c"].map(|name| {
         let digest = Digest::of(name.as_bytes());
-        MatrixRobot::new(name.to_owned(), digest, 0)
+        MatrixRobot::new(name, digest, 0)
     });
     let seeds = Seeds { first: 0, count: 1 };
     let mut matrix = ScoreMatrix::new(rules.clone(), seeds, robots.into());
@@ -19,7 +19,7 @@ pub(super) fn matrix(sizes: &[u8]) -> ScoreMatrix {
         let name = format!("maze {position}");
         let maze = matrix.push_maze(MatrixMaze {
             digest: Digest::of(name.as_bytes()),
-            name,
+            name: name.into(),
             dimension,
             oracle: Some(rules.game.score(10, 11)),
             set: 0,

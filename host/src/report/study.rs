@@ -34,7 +34,7 @@
 use std::collections::BTreeSet;
 
 use serde::Serialize;
-use wasmouse_core::Digest;
+use wasmouse_core::{Digest, GuestText};
 
 use super::escape::for_terminal;
 use super::json;
@@ -63,7 +63,7 @@ pub struct Study {
 
 #[derive(Serialize)]
 struct Robot {
-    name: String,
+    name: GuestText,
     digest: Digest,
     variant: u32,
     admitted: bool,

@@ -209,9 +209,9 @@ mod tests {
     /// The sample with a short name instead of the hostile one.
     fn sample() -> Results {
         let mut results = results();
-        results.contest.robots[1].name = "b".to_owned();
-        results.summary.standings.lines[1].robot = "b".to_owned();
-        results.summary.mazes[1].name = "gen:tree:16:1".to_owned();
+        results.contest.robots[1].name = "b".into();
+        results.summary.standings.lines[1].robot = "b".into();
+        results.summary.mazes[1].name = "gen:tree:16:1".into();
         for record in &mut results.matches {
             record.key.seed = 0;
             record.fuel.steps = 912_345;

@@ -98,7 +98,7 @@ pub struct NotFound {
     /// Which of both.
     pub kind: NeededKind,
     /// Its name in the document.
-    pub name: String,
+    pub name: GuestText,
     /// Its digest in the document.
     pub digest: Digest,
 }
@@ -442,7 +442,7 @@ mod tests {
         let digest = Digest::of(b"bot");
         incomplete.not_found = vec![NotFound {
             kind: NeededKind::Robot,
-            name: "bot".to_owned(),
+            name: "bot".into(),
             digest,
         }];
         let text = format!(

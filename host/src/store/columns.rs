@@ -1,14 +1,40 @@
 //! A [`MatchRecord`] as the columns of the table `match`, and back.
 
-use rusqlite::{Row, Statement, params};
+use rusqlite::types::ToSqlOutput;
+use rusqlite::{Row, Statement, ToSql, params};
 use wasmouse_core::GuestText;
 use wasmouse_core::game::{Counts, Fault, FaultKind, Phase, Ruleset, Run, Score, Steps, Verdict};
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::journal::JournalCounts;
 use wasmouse_core::maze::Cell;
 use wasmouse_core::record::{FuelUse, MatchKey, MatchRecord, RecordVersion};
 
 use super::error::StoreErrorKind;
 use super::ids::{Address, digest_at};
+
+/// A text from outside as the value of a column.
+pub(super) struct Column<'a>(GuestStr<'a>);
+
+/// The value of a column for that text.
+pub(super) fn column<'a>(text: impl Into<GuestStr<'a>>) -> Column<'a> {
+    Column(text.into())
+}
+
+impl ToSql for Column<'_> {
+    fn to_sql(&self) -> rusqlite::Result<ToSqlOutput<'_>> {
+        self.0.raw().to_sql()
+    }
+}
+
+/// The text of a column.
+pub(super) fn text_at(row: &Row<'_>, index: usize) -> rusqlite::Result<GuestText> {
+    row.get::<_, String>(index).map(GuestText::from)
+}
+
+/// The text of a column that may have none.
+pub(super) fn optional_text_at(row: &Row<'_>, index: usize) -> rusqlite::Result<Option<GuestText>> {
+    Ok(row.get::<_, Option<String>>(index)?.map(GuestText::from))
+}
 
 /// The columns of a record after those of its address, in the order of [`read_record`].
 macro_rules! record_columns {
@@ -131,7 +157,7 @@ pub(super) fn insert(
         fault.map(|it| it.step),
         fault.map(|it| it.cell.x),
         fault.map(|it| it.cell.y),
-        fault.map(|it| it.detail.raw()),
+        fault.map(|it| column(&it.detail)),
     ])?;
     Ok(rows > 0)
 }
@@ -228,7 +254,7 @@ fn read_fault(row: &Row<'_>) -> rusqlite::Result<Option<Fault>> {
         run,
         step: row.get(17)?,
         cell: Cell::new(row.get(18)?, row.get(19)?),
-        detail: GuestText::from(row.get::<_, String>(20)?),
+        detail: text_at(row, 20)?,
     }))
 }
 

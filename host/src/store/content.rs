@@ -6,7 +6,7 @@ use std::thread;
 use rusqlite::{Connection, Row, params};
 use wasmouse_core::game::Verdict;
 use wasmouse_core::record::MatchRecord;
-use wasmouse_core::{Digest, DigestBuilder};
+use wasmouse_core::{Digest, DigestBuilder, GuestText};
 
 use super::columns::fault_code;
 use super::error::{StoreError, StoreErrorKind};
@@ -150,13 +150,13 @@ fn submissions_by_name(connection: &Connection) -> Result<Vec<Digest>, StoreErro
         let builder = DigestBuilder::new("wasmouse.store.submissions.1");
         let builder = history.iter().fold(builder, |builder, it| {
             let rejection = it.rejection.as_ref();
-            let builder = builder.bytes(it.name.as_bytes()).digest(&it.robot);
+            let builder = builder.bytes(it.name.raw().as_bytes()).digest(&it.robot);
             let builder = builder.numbers(&[it.variant.into()]);
-            let builder = text(builder, it.author.as_deref());
-            let builder = text(builder, it.class.as_deref());
-            let builder = text(builder, rejection.map(|it| &*it.kind));
+            let builder = text(builder, it.author.as_ref().map(GuestText::raw));
+            let builder = text(builder, it.class.as_ref().map(GuestText::raw));
+            let builder = text(builder, rejection.map(|it| it.kind.raw()));
             let builder = text(builder, rejection.map(|it| it.reason.raw()));
-            text(builder, rejection.map(|it| &*it.hint))
+            text(builder, rejection.map(|it| it.hint.raw()))
         });
         builder.finish()
     });

@@ -4,6 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use rusqlite::ErrorCode;
+use wasmouse_core::GuestText;
 use wasmouse_core::record::MatchKey;
 
 /// A store cannot be used, or something was refused. Displays as one line with the place; it may
@@ -84,17 +85,17 @@ pub enum StoreErrorKind {
     Sqlite(rusqlite::Error),
     /// A record contradicts the one that the store has for the same address.
     #[error(
-        "two different records for one match (robot `{robot}`, maze `{maze}`, seed {}, address {}): \
+        "two different records for one match (robot `{}`, maze `{}`, seed {}, address {}): \
          this is a bug in wasmouse, or the store was changed",
-        key.seed, key.digest()
+        robot.escaped(), maze.escaped(), key.seed, key.digest()
     )]
     Conflict {
         /// The match.
         key: Box<MatchKey>,
         /// The name of its robot.
-        robot: String,
+        robot: GuestText,
         /// The name of its maze.
-        maze: String,
+        maze: GuestText,
     },
     /// A record contradicts itself, its rules or its transcript, so it is not stored.
     #[error("match {}: {problem}", key.digest())]

@@ -197,10 +197,14 @@ impl<'a> Replaying<'a> {
     fn inconsistent(&self, key: &MatchKey, problem: &str) -> Result<(), StoreErrorKind> {
         let robot = robot_name(self.connection, &key.robot, key.variant)?;
         let maze = maze_name(self.connection, key)?;
-        let seed = key.seed;
         Err(StoreErrorKind::Inconsistent {
             key: Box::new(*key),
-            problem: format!("robot `{robot}`, maze `{maze}`, seed {seed}: {problem}"),
+            problem: format!(
+                "robot `{}`, maze `{}`, seed {}: {problem}",
+                robot.escaped(),
+                maze.escaped(),
+                key.seed
+            ),
         })
     }
 }

@@ -3,11 +3,13 @@
 use std::collections::HashMap;
 
 use rusqlite::Connection;
-use wasmouse_core::Digest;
 use wasmouse_core::game::Ruleset;
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::maze::Maze;
 use wasmouse_core::record::{MatchRecord, Transcript};
+use wasmouse_core::{Digest, GuestText};
 
+use super::columns::text_at;
 use super::error::{StoreError, StoreErrorKind};
 use super::ids::digest_at;
 use super::mazes::stored_maze;
@@ -21,9 +23,9 @@ use super::{submissions, transcripts};
 pub struct KeptName<'a> {
     /// The name under which the robot was submitted last; the first digits of its digest if it was
     /// not.
-    pub robot: &'a str,
+    pub robot: GuestStr<'a>,
     /// The name of the maze.
-    pub maze: &'a str,
+    pub maze: GuestStr<'a>,
     /// The seed.
     pub seed: u64,
 }
@@ -32,9 +34,9 @@ pub struct KeptName<'a> {
 #[derive(Clone, Debug)]
 pub struct KeptMatch {
     /// The name under which the robot was submitted.
-    pub robot: String,
+    pub robot: GuestText,
     /// The name of the maze.
-    pub maze_name: String,
+    pub maze_name: GuestText,
     /// The maze.
     pub maze: Maze,
     /// The rules.
@@ -85,20 +87,20 @@ fn kept(
     let catalog = Catalog::load(connection)?;
     // The last submission of a robot is the one whose name it has.
     let submissions = submissions::all(connection)?.into_iter();
-    let names: HashMap<(Digest, u32), String> = submissions
+    let names: HashMap<(Digest, u32), GuestText> = submissions
         .map(|it| ((it.robot, it.variant), it.name))
         .collect();
     let mazes = maze_names(connection)?;
     each_transcript(connection, |row| -> Result<(), Stop> {
         let at = &row.at;
         let robot = *found(&catalog.robots, at.robot)?;
-        let short = || format!("{:.12}", robot.to_string());
+        let short = || format!("{:.12}", robot.to_string()).into();
         let robot = names.get(&(robot, at.variant)).cloned();
         let robot = robot.unwrap_or_else(short);
         let (maze_digest, maze_name) = found(&mazes, at.maze)?;
         let name = KeptName {
-            robot: &robot,
-            maze: maze_name,
+            robot: robot.as_guest(),
+            maze: maze_name.as_guest(),
             seed: at.seed.cast_unsigned(),
         };
         if !is_wanted(name) {
@@ -123,10 +125,12 @@ fn kept(
     })
 }
 
-fn maze_names(connection: &Connection) -> Result<HashMap<i64, (Digest, String)>, StoreErrorKind> {
+fn maze_names(
+    connection: &Connection,
+) -> Result<HashMap<i64, (Digest, GuestText)>, StoreErrorKind> {
     let mut statement = connection.prepare("SELECT id, digest, name FROM maze")?;
     let rows = statement.query_map([], |row| {
-        Ok((row.get(0)?, (digest_at(row, 1)?, row.get(2)?)))
+        Ok((row.get(0)?, (digest_at(row, 1)?, text_at(row, 2)?)))
     })?;
     Ok(rows.collect::<Result<_, _>>()?)
 }

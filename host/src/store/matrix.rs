@@ -7,7 +7,7 @@ use wasmouse_core::Digest;
 use wasmouse_core::game::{Ruleset, Steps};
 use wasmouse_core::record::MatchRecord;
 
-use super::columns::{self, BUDGET_USED_UP, FAULT, FINISHED, GOAL_REACHED};
+use super::columns::{self, BUDGET_USED_UP, FAULT, FINISHED, GOAL_REACHED, text_at};
 use super::error::{StoreError, StoreErrorKind};
 use super::ids::{self, Address, Table, digest_at};
 use super::keys::{MatchKeys, positions};
@@ -106,7 +106,7 @@ fn push_mazes(
         let oracle = row.get::<_, Option<u32>>(5)?.zip(row.get(4)?);
         let oracle = oracle.map(|(speed, exploration)| matrix.rules.game.score(speed, exploration));
         let maze = MatrixMaze {
-            name: row.get(2)?,
+            name: text_at(row, 2)?,
             digest,
             dimension: row.get(3)?,
             oracle,

@@ -3,11 +3,13 @@
 use std::collections::HashMap;
 
 use rusqlite::{Connection, OptionalExtension as _, params};
-use wasmouse_core::Digest;
 use wasmouse_core::game::{Ruleset, Score};
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::maze::generate::{GenSpec, GeneratedMaze};
 use wasmouse_core::maze::{Area, Cell, DIMENSIONS, Heading, Maze, Walls};
+use wasmouse_core::{Digest, GuestText};
 
+use super::columns::{column, text_at};
 use super::error::{StoreError, StoreErrorKind};
 use super::ids::{self, Table, digest_at};
 use super::open::Store;
@@ -21,7 +23,7 @@ pub const GENERATOR: &str = "wasmouse.generate.1";
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StoredMaze {
     /// What results call it; if it had several names, the first in the order of their bytes.
-    pub name: String,
+    pub name: GuestText,
     /// Its digest.
     pub digest: Digest,
     /// The maze, with that digest.
@@ -103,7 +105,7 @@ pub(super) fn stored_maze(
     let mut statement = connection.prepare_cached(sql)?;
     let row = statement.query_row(params![digest.as_bytes()], |row| {
         let maze = MazeRow {
-            name: row.get(0)?,
+            name: text_at(row, 0)?,
             digest: *digest,
             dimension: row.get(1)?,
             walls: row.get(2)?,
@@ -162,7 +164,7 @@ pub(super) fn parse_generated(name: &str) -> Result<GeneratedMaze, StoreErrorKin
 /// A maze to store.
 #[derive(Clone, Debug)]
 pub(super) struct MazeRow {
-    pub name: String,
+    pub name: GuestText,
     pub digest: Digest,
     pub dimension: u8,
     /// `None` for a maze that its name generates.
@@ -188,7 +190,7 @@ impl MazeRow {
         let steps = oracle.map(|it| (it.exploration_steps(), it.speed_steps()));
         put_oracle(connection, id, rules, steps)?;
         if self.walls.is_none() {
-            put_generated(connection, &self.name, id)?;
+            put_generated(connection, self.name.as_guest(), id)?;
         }
         Ok(id)
     }
@@ -200,7 +202,7 @@ impl MazeRow {
         // Most mazes that arrive are new, so adding is tried first.
         let added = connection.prepare_cached(sql)?.execute(params![
             self.digest.as_bytes(),
-            self.name,
+            column(&self.name),
             self.dimension,
             self.walls,
         ])?;
@@ -211,7 +213,7 @@ impl MazeRow {
         let id = id.ok_or_else(|| StoreErrorKind::Unknown(format!("maze {}", self.digest)))?;
         let sql = "UPDATE maze SET name = ?2 WHERE id = ?1 AND name > ?2";
         let mut statement = connection.prepare_cached(sql)?;
-        statement.execute(params![id, self.name])?;
+        statement.execute(params![id, column(&self.name)])?;
         Ok(id)
     }
 
@@ -299,14 +301,14 @@ pub(super) fn check_oracle(
 /// Adds the name of a generated maze.
 pub(super) fn put_generated(
     connection: &Connection,
-    name: &str,
+    name: GuestStr<'_>,
     maze: i64,
 ) -> Result<(), StoreErrorKind> {
     let sql =
         "INSERT INTO generated(generator, name, maze) VALUES(?1, ?2, ?3) ON CONFLICT DO NOTHING";
     connection
         .prepare_cached(sql)?
-        .execute(params![GENERATOR, name, maze])?;
+        .execute(params![GENERATOR, column(name), maze])?;
     Ok(())
 }
 

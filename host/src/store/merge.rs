@@ -17,10 +17,12 @@ use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 
 use rusqlite::{Connection, Transaction};
+use wasmouse_core::GuestText;
 use wasmouse_core::game::Ruleset;
 use wasmouse_core::maze::Maze;
 use wasmouse_core::record::MatchKey;
 
+use super::columns::text_at;
 use super::content::seal_holds;
 use super::error::{StoreError, StoreErrorKind};
 use super::ids::{self, Address, Table, digest_at};
@@ -211,7 +213,7 @@ impl Merging<'_> {
         while let Some(row) = rows.next()? {
             let id: i64 = row.get(0)?;
             let maze = MazeRow {
-                name: row.get(2)?,
+                name: text_at(row, 2)?,
                 digest: digest_at(row, 1)?,
                 dimension: row.get(3)?,
                 walls: row.get(4)?,
@@ -248,7 +250,7 @@ impl Merging<'_> {
                 let problem = format!("`{name}` is another maze");
                 return Err(Blame::Source(StoreErrorKind::Damaged(problem)));
             }
-            put_generated(self.target, &name, into).map_err(Blame::Target)?;
+            put_generated(self.target, (&name).into(), into).map_err(Blame::Target)?;
         }
         Ok(())
     }
@@ -325,7 +327,12 @@ impl Merging<'_> {
     fn describe(&self, key: &MatchKey) -> Result<String, StoreErrorKind> {
         let robot = robot_name(self.source, &key.robot, key.variant)?;
         let maze = maze_name(self.source, key)?;
-        Ok(format!("robot `{robot}`, maze `{maze}`, seed {}", key.seed))
+        Ok(format!(
+            "robot `{}`, maze `{}`, seed {}",
+            robot.escaped(),
+            maze.escaped(),
+            key.seed
+        ))
     }
 
     fn transcripts(&self) -> Result<u64, Blame> {
@@ -371,9 +378,10 @@ impl Merging<'_> {
                 seed: row.get(5)?,
             };
             let cause = unplayed::Cause::of_code(row.get(6)?)?;
-            let reason: String = row.get(7)?;
+            let reason = text_at(row, 7)?;
             let into = self.address(&at)?;
-            unplayed::put_least(self.target, &into, cause, &reason).map_err(Blame::Target)?;
+            unplayed::put_least(self.target, &into, cause, reason.as_guest())
+                .map_err(Blame::Target)?;
         }
         Ok(())
     }
@@ -382,7 +390,7 @@ impl Merging<'_> {
     /// with others in between.
     fn submissions(&self) -> Result<u64, Blame> {
         let ours = submissions::all(self.target).map_err(Blame::Target)?;
-        let mut histories: HashMap<&str, Vec<&Submission>> = HashMap::new();
+        let mut histories: HashMap<&GuestText, Vec<&Submission>> = HashMap::new();
         for submission in &ours {
             histories
                 .entry(&submission.name)

@@ -44,7 +44,7 @@ impl Contest {
             .map(|maze| MazeSource::Generated(maze).prepare(&rules.game))
             .collect();
         if let Some(last) = mazes.last_mut() {
-            last.name = "a file".to_owned();
+            last.name = "a file".into();
             last.is_generated = false;
         }
         Self {
@@ -154,7 +154,7 @@ pub fn maze_with(digest: Digest) -> ContestMaze {
     let spec: GenSpec = "gen:tree:12:1".parse().expect("a maze");
     let maze = spec.expand().next().expect("a maze").generate();
     ContestMaze {
-        name: "some maze".to_owned(),
+        name: "some maze".into(),
         digest,
         oracle: None,
         is_generated: false,

@@ -289,7 +289,7 @@ impl Writing<'_> {
         }
         for (failure, cause) in &batch.unplayed {
             let at = self.address(&failure.key)?;
-            unplayed::put(self.transaction, &at, *cause, failure.reason.raw())?;
+            unplayed::put(self.transaction, &at, *cause, failure.reason.as_guest())?;
         }
         let first = batch.records.iter().find(|it| conflicts.contains(&it.key));
         first

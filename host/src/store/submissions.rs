@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use rusqlite::{Connection, OptionalExtension as _, params};
 use wasmouse_core::{Digest, GuestText};
 
+use super::columns::{column, optional_text_at, text_at};
 use super::error::{StoreError, StoreErrorKind};
 use super::ids::{self, digest_at};
 use super::open::Store;
@@ -15,11 +16,11 @@ use crate::contest::RejectionEntry;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Submission {
     /// What the standings call it.
-    pub name: String,
+    pub name: GuestText,
     /// Who submitted it, if that is known.
-    pub author: Option<String>,
+    pub author: Option<GuestText>,
     /// The class that it competes in, such as a fuel class.
-    pub class: Option<String>,
+    pub class: Option<GuestText>,
     /// The digest of its file.
     pub robot: Digest,
     /// The number that chooses its mode.
@@ -85,18 +86,18 @@ const SELECT: &str = "SELECT s.name, s.author, s.class, r.digest, s.variant, s.r
      s.rejection_reason, s.rejection_hint FROM submission s JOIN robot r ON r.id = s.robot";
 
 fn read(row: &rusqlite::Row<'_>) -> rusqlite::Result<Submission> {
-    let rejection = match row.get(5)? {
+    let rejection = match optional_text_at(row, 5)? {
         Some(kind) => Some(RejectionEntry {
             kind,
-            reason: GuestText::from(row.get::<_, String>(6)?),
-            hint: row.get(7)?,
+            reason: text_at(row, 6)?,
+            hint: text_at(row, 7)?,
         }),
         None => None,
     };
     Ok(Submission {
-        name: row.get(0)?,
-        author: row.get(1)?,
-        class: row.get(2)?,
+        name: text_at(row, 0)?,
+        author: optional_text_at(row, 1)?,
+        class: optional_text_at(row, 2)?,
         robot: digest_at(row, 3)?,
         variant: row.get(4)?,
         rejection,
@@ -110,10 +111,10 @@ pub(super) fn all(connection: &Connection) -> Result<Vec<Submission>, StoreError
     Ok(rows.collect::<Result<_, _>>()?)
 }
 
-fn last(connection: &Connection, name: &str) -> Result<Option<Submission>, StoreErrorKind> {
+fn last(connection: &Connection, name: &GuestText) -> Result<Option<Submission>, StoreErrorKind> {
     let sql = format!("{SELECT} WHERE s.name = ?1 ORDER BY s.ordinal DESC LIMIT 1");
     let mut statement = connection.prepare_cached(&sql)?;
-    Ok(statement.query_row([name], read).optional()?)
+    Ok(statement.query_row([column(name)], read).optional()?)
 }
 
 /// Adds a submission.
@@ -128,14 +129,14 @@ pub(super) fn append(
          rejection_reason, rejection_hint) VALUES(?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)",
     )?;
     statement.execute(params![
-        submission.name,
-        submission.author,
-        submission.class,
+        column(&submission.name),
+        submission.author.as_ref().map(column),
+        submission.class.as_ref().map(column),
         robot,
         submission.variant,
-        rejection.map(|it| &it.kind),
-        rejection.map(|it| it.reason.raw()),
-        rejection.map(|it| &it.hint),
+        rejection.map(|it| column(&it.kind)),
+        rejection.map(|it| column(&it.reason)),
+        rejection.map(|it| column(&it.hint)),
     ])?;
     Ok(())
 }
@@ -145,12 +146,12 @@ pub(super) fn robot_name(
     connection: &Connection,
     robot: &Digest,
     variant: u32,
-) -> Result<String, StoreErrorKind> {
+) -> Result<GuestText, StoreErrorKind> {
     let mut statement = connection.prepare_cached(
         "SELECT s.name FROM submission s JOIN robot r ON r.id = s.robot \
          WHERE r.digest = ?1 AND s.variant = ?2 ORDER BY s.ordinal DESC LIMIT 1",
     )?;
-    let name = statement.query_row(params![robot.as_bytes(), variant], |row| row.get(0));
-    let name: Option<String> = name.optional()?;
-    Ok(name.unwrap_or_else(|| robot.to_string()[..12].to_owned()))
+    let name = statement.query_row(params![robot.as_bytes(), variant], |row| text_at(row, 0));
+    let name: Option<GuestText> = name.optional()?;
+    Ok(name.unwrap_or_else(|| robot.to_string()[..12].into()))
 }

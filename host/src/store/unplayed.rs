@@ -2,8 +2,10 @@
 
 use rusqlite::{Connection, params};
 use wasmouse_core::GuestText;
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::record::MatchKey;
 
+use super::columns::column;
 use super::error::{StoreError, StoreErrorKind};
 use super::ids::{self, Address, Table};
 use super::keys::{MatchKeys, maze_positions};
@@ -84,7 +86,7 @@ impl Store {
 pub(super) fn each(
     connection: &Connection,
     keys: &MatchKeys<'_>,
-    mut visit: impl FnMut(usize, i64, i64, Cause, &str),
+    mut visit: impl FnMut(usize, i64, i64, Cause, GuestStr<'_>),
 ) -> Result<(), StoreErrorKind> {
     let engine = ids::find(connection, Table::Engine, &keys.engine)?;
     let rules = ids::find(connection, Table::Rules, &keys.rules)?;
@@ -98,7 +100,7 @@ pub(super) fn each(
         while let Some(row) = rows.next()? {
             let reason = row.get_ref(3)?.as_str().unwrap_or_default();
             let cause = Cause::of_code(row.get(2)?)?;
-            visit(player, row.get(0)?, row.get(1)?, cause, reason);
+            visit(player, row.get(0)?, row.get(1)?, cause, reason.into());
         }
     }
     Ok(())
@@ -120,7 +122,7 @@ pub(super) fn put(
     connection: &Connection,
     at: &Address,
     cause: Cause,
-    reason: &str,
+    reason: GuestStr<'_>,
 ) -> Result<(), StoreErrorKind> {
     execute(connection, insert!(), at, cause, reason)
 }
@@ -130,7 +132,7 @@ pub(super) fn put_least(
     connection: &Connection,
     at: &Address,
     cause: Cause,
-    reason: &str,
+    reason: GuestStr<'_>,
 ) -> Result<(), StoreErrorKind> {
     const SQL: &str = concat!(
         insert!(),
@@ -144,7 +146,7 @@ fn execute(
     sql: &str,
     at: &Address,
     cause: Cause,
-    reason: &str,
+    reason: GuestStr<'_>,
 ) -> Result<(), StoreErrorKind> {
     let mut statement = connection.prepare_cached(sql)?;
     statement.execute(params![
@@ -155,7 +157,7 @@ fn execute(
         at.maze,
         at.seed,
         cause.code(),
-        reason,
+        column(reason),
     ])?;
     Ok(())
 }

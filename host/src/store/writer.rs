@@ -1,10 +1,11 @@
 //! How records get into a store: added, found there, or in conflict with what is there.
 
 use rusqlite::{CachedStatement, Connection, OptionalExtension as _, params};
+use wasmouse_core::GuestText;
 use wasmouse_core::game::Ruleset;
 use wasmouse_core::record::{MatchKey, MatchRecord};
 
-use super::columns::{self, INSERT_RECORD, SELECT_RECORD};
+use super::columns::{self, INSERT_RECORD, SELECT_RECORD, text_at};
 use super::error::{StoreError, StoreErrorKind};
 use super::ids::Address;
 use super::open::Store;
@@ -110,11 +111,14 @@ pub(super) fn conflict(
 }
 
 /// What the maze of a match is called.
-pub(super) fn maze_name(connection: &Connection, key: &MatchKey) -> Result<String, StoreErrorKind> {
+pub(super) fn maze_name(
+    connection: &Connection,
+    key: &MatchKey,
+) -> Result<GuestText, StoreErrorKind> {
     let sql = "SELECT name FROM maze WHERE digest = ?1";
-    let name = connection.query_row(sql, params![key.maze.as_bytes()], |row| row.get(0));
-    let name: Option<String> = name.optional()?;
-    Ok(name.unwrap_or_else(|| key.maze.to_string()[..12].to_owned()))
+    let name = connection.query_row(sql, params![key.maze.as_bytes()], |row| text_at(row, 0));
+    let name: Option<GuestText> = name.optional()?;
+    Ok(name.unwrap_or_else(|| key.maze.to_string()[..12].into()))
 }
 
 impl Store {

@@ -251,7 +251,7 @@ fn hostile_page() -> String {
     for number in 0..2 {
         let maze = generated(&format!("gen:tree:12:{number}"));
         let index = matrix.push_maze(MatrixMaze {
-            name: format!("{HOSTILE}{number}"),
+            name: format!("{HOSTILE}{number}").into(),
             digest: maze.digest(),
             dimension: 12,
             oracle: rules.game.oracle_score(&maze),

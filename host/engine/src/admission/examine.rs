@@ -143,7 +143,7 @@ fn in_core_module(rejection: Rejection) -> Rejection {
 fn check_names(shape: &Shape) -> Result<(), Rejection> {
     let names = shape.imports.iter().chain(&shape.exports);
     if let Some(version) = version::other(names.map(String::as_str)) {
-        return Err(Rejection::OtherVersion(version.to_owned()));
+        return Err(Rejection::OtherVersion(version.into()));
     }
     let is_known = |name: &String| {
         ["journal", "types"]
@@ -151,11 +151,14 @@ fn check_names(shape: &Shape) -> Result<(), Rejection> {
             .any(|interface| version::is_compatible(name, interface))
     };
     if let Some(name) = shape.imports.iter().find(|name| !is_known(name)) {
-        return Err(Rejection::UnknownImport(name.clone()));
+        return Err(Rejection::UnknownImport(name.as_str().into()));
     }
     let is_controller = |name: &String| version::is_compatible(name, "controller");
     if !shape.exports.iter().any(is_controller) {
-        return Err(Rejection::NoController(shape.exports.clone()));
+        let exports = shape.exports.iter();
+        return Err(Rejection::NoController(
+            exports.map(|it| it.as_str().into()).collect(),
+        ));
     }
     Ok(())
 }

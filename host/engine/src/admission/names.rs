@@ -4,14 +4,15 @@
 const NAMES_SHOWN_MAX: usize = 8;
 
 /// The names in backquotes; only their number after the first 8.
-pub(super) fn list(names: &[String]) -> String {
-    if names.is_empty() {
+pub(super) fn list<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> String {
+    let count = names.len();
+    if count == 0 {
         return "nothing".into();
     }
-    let shown = names.iter().take(NAMES_SHOWN_MAX);
+    let shown = names.take(NAMES_SHOWN_MAX);
     let mut shown: Vec<String> = shown.map(|name| format!("`{name}`")).collect();
-    if names.len() > NAMES_SHOWN_MAX {
-        shown.push(format!("{} more", names.len() - NAMES_SHOWN_MAX));
+    if count > NAMES_SHOWN_MAX {
+        shown.push(format!("{} more", count - NAMES_SHOWN_MAX));
     }
     shown.join(", ")
 }
@@ -21,5 +22,6 @@ pub(super) fn list_escaped<'a>(names: impl IntoIterator<Item = &'a String>) -> S
     let escaped = names
         .into_iter()
         .map(|name| name.escape_debug().to_string());
-    list(&escaped.collect::<Vec<String>>())
+    let escaped: Vec<String> = escaped.collect();
+    list(escaped.iter().map(String::as_str))
 }

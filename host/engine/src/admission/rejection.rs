@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::{GuestText, guest_text};
 
 use super::componentize::ComponentizeError;
@@ -50,23 +51,23 @@ pub enum Rejection {
         place: Option<TextPlace>,
     },
     /// The robot was built for an incompatible version of the interface.
-    OtherVersion(String),
+    OtherVersion(GuestText),
     /// The component imports something that is not available to robots.
-    UnknownImport(String),
+    UnknownImport(GuestText),
     /// The component does not export the controller.
-    NoController(Vec<String>),
+    NoController(Vec<GuestText>),
     /// An import or export has a type that differs from the WIT.
-    WrongType(String),
+    WrongType(GuestText),
     /// Its compilation took too much, or ended the process that compiled it.
-    Uncompilable(String),
+    Uncompilable(GuestText),
     /// What a worker process reported.
     Reported {
         /// As [`Rejection::name`] there.
-        name: String,
+        name: GuestText,
         /// As [`Rejection::reason`] there.
         reason: GuestText,
         /// As [`Rejection::hint`] there.
-        hint: String,
+        hint: GuestText,
     },
     /// The file exceeds a limit, before anything of it runs.
     OverLimit {
@@ -135,21 +136,26 @@ impl fmt::Display for Words<'_> {
             }
             Rejection::OtherVersion(version) => write!(
                 f,
-                "the robot was built for wasmouse:robot@{version}; this host runs {COMPATIBLE}"
+                "the robot was built for wasmouse:robot@{}; this host runs {COMPATIBLE}",
+                version.raw()
             ),
             Rejection::UnknownImport(name) => write!(
                 f,
-                "the component imports `{name}`, which is not available to robots"
+                "the component imports `{}`, which is not available to robots",
+                name.raw()
             ),
             Rejection::NoController(exports) => write!(
                 f,
                 "the component does not export `{CONTROLLER}`; it exports {}",
-                list(exports)
+                list(exports.iter().map(GuestText::raw))
             ),
             Rejection::WrongType(what) => {
+                let what = what.raw();
                 write!(f, "the component does not fit the world `robot`: {what}")
             }
-            Rejection::Uncompilable(reason) => write!(f, "compiling the component {reason}"),
+            Rejection::Uncompilable(reason) => {
+                write!(f, "compiling the component {}", reason.raw())
+            }
             Rejection::Reported { reason, .. } => f.write_str(reason.raw()),
             Rejection::OverLimit {
                 what,
@@ -170,9 +176,10 @@ impl Rejection {
         guest_text!("{}", Words(self))
     }
 
-    /// A short name as in JSON: lowercase letters and hyphens.
-    pub fn name(&self) -> &str {
-        match self {
+    /// A short name as in JSON: lowercase letters and hyphens, unless a worker that was taken over
+    /// reported something else.
+    pub fn name(&self) -> GuestStr<'_> {
+        let name = match self {
             Self::Empty => "empty",
             Self::TooLarge { .. } => "too-large",
             Self::NotWasm(_) => "not-wasm",
@@ -189,8 +196,9 @@ impl Rejection {
             Self::WrongType(_) => "wrong-type",
             Self::OverLimit { .. } => "over-limit",
             Self::Uncompilable(_) => "uncompilable",
-            Self::Reported { name, .. } => name,
-        }
+            Self::Reported { name, .. } => return name.as_guest(),
+        };
+        name.into()
     }
 
     /// Whether the same host would reject the same file again. All but one kind depend on the
@@ -198,14 +206,14 @@ impl Rejection {
     /// machine that was short of it.
     pub(crate) fn is_repeatable(&self) -> bool {
         match self {
-            Self::Uncompilable(reason) => reason.ends_with(OUT_OF_PROCESSOR_TIME),
+            Self::Uncompilable(reason) => reason.raw().ends_with(OUT_OF_PROCESSOR_TIME),
             _ => true,
         }
     }
 
     /// What the author can do.
-    pub fn hint(&self) -> &str {
-        match self {
+    pub fn hint(&self) -> GuestStr<'_> {
+        let hint = match self {
             Self::Empty | Self::NotWasm(_) => {
                 "a robot is a WebAssembly component or core module (.wasm), or WebAssembly text \
                  (.wat); `wasmouse build` makes one of a robot project"
@@ -222,7 +230,7 @@ impl Rejection {
             Self::Invalid { .. } => {
                 "rebuild it with a released toolchain and without experimental proposals"
             }
-            Self::UnknownImport(name) if name.starts_with("wasi:") => {
+            Self::UnknownImport(name) if name.as_guest().starts_with("wasi:") => {
                 "robots have no clock, files, randomness or network; `wasmouse build FILE.wasm` makes \
                  a robot of a component with WASI: it answers WASI inside (docs/WASI.md)"
             }
@@ -237,12 +245,13 @@ impl Rejection {
             Self::Uncompilable(_) => {
                 "build it in release mode, as smaller functions with fewer local variables"
             }
-            Self::Reported { hint, .. } => hint,
+            Self::Reported { hint, .. } => return hint.as_guest(),
             Self::OverLimit { .. } => {
                 "`wasmouse inspect` shows every measure of a robot beside its limit; generated code \
                  and unrolled tables are better written as loops over data"
             }
-        }
+        };
+        hint.into()
     }
 }
 
@@ -256,7 +265,7 @@ mod tests {
 
     #[test]
     fn long_lists_of_names_end() {
-        let names: Vec<String> = (1..=20).map(|number| format!("e{number}")).collect();
+        let names = (1..=20).map(|number| format!("e{number}").into()).collect();
         let message = Rejection::NoController(names).reason();
         assert!(
             message

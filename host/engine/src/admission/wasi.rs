@@ -5,6 +5,8 @@
 //! says what it answers. For modules that import preview 1, [`componentize`](super::componentize)
 //! does the like.
 
+use wasmouse_core::GuestText;
+use wasmouse_core::guest_text::GuestStr;
 use wasmparser::{BinaryReaderError, Parser, Validator, WasmFeatures};
 
 use super::binary::BinaryKind;
@@ -28,23 +30,23 @@ pub enum ComposeError {
     #[error(transparent)]
     Rejected(#[from] Rejection),
     /// It imports something that is neither WASI nor for robots.
-    #[error("the component imports `{0}`, which is not available to robots")]
-    UnknownImport(String),
+    #[error("the component imports `{}`, which is not available to robots", .0.escaped())]
+    UnknownImport(GuestText),
     /// It imports an interface of WASI that is not answered.
-    #[error("the component imports `{0}`, which is not among what is answered of WASI")]
-    NotAnswered(String),
+    #[error("the component imports `{}`, which is not among what is answered of WASI", .0.escaped())]
+    NotAnswered(GuestText),
     /// It imports an interface with other types or functions than that has.
-    #[error("the component does not fit the interfaces that it imports: {0}")]
-    Mismatch(String),
+    #[error("the component does not fit the interfaces that it imports: {}", .0.escaped())]
+    Mismatch(GuestText),
 }
 
 impl ComposeError {
     /// What the author of the robot can do about it.
-    pub fn hint(&self) -> &str {
-        match self {
+    pub fn hint(&self) -> GuestStr<'_> {
+        let hint = match self {
             Self::NotAComponent => "core modules become robots as they are",
             Self::WithoutWasi => "use the file as it is",
-            Self::Rejected(rejection) => rejection.hint(),
+            Self::Rejected(rejection) => return rejection.hint(),
             Self::UnknownImport(_) => {
                 "a robot may import the interface `journal` of `wit/robot.wit`, WASI and nothing \
                  else"
@@ -56,7 +58,8 @@ impl ComposeError {
             Self::Mismatch(_) => {
                 "build it with a released toolchain, for WASI 0.2.12 or an earlier 0.2 version"
             }
-        }
+        };
+        hint.into()
     }
 }
 
@@ -88,11 +91,12 @@ pub fn compose(component: &[u8], limits: &Limits) -> Result<Vec<u8>, ComposeErro
     }
     if let Some(found) = version::other(shape.imports.iter().chain(&shape.exports).map(|it| &**it))
     {
-        return Err(Rejection::OtherVersion(found.to_owned()).into());
+        return Err(Rejection::OtherVersion(found.into()).into());
     }
     let is_controller = |name: &&String| version::is_compatible(name, "controller");
     let Some(controller) = shape.exports.iter().find(is_controller) else {
-        return Err(Rejection::NoController(shape.exports).into());
+        let exports = shape.exports.into_iter();
+        return Err(Rejection::NoController(exports.map(GuestText::from).collect()).into());
     };
     let available = PREVIEW2.instances();
     let mut arguments = Vec::new();
@@ -102,7 +106,7 @@ pub fn compose(component: &[u8], limits: &Limits) -> Result<Vec<u8>, ComposeErro
     let composed = PREVIEW2.with_robot(component, arguments, controller);
     match fits(&composed) {
         Ok(()) => Ok(composed),
-        Err(error) => Err(ComposeError::Mismatch(error.message().to_owned())),
+        Err(error) => Err(ComposeError::Mismatch(error.message().into())),
     }
 }
 
@@ -124,7 +128,7 @@ fn instance_for(import: &str, available: &[String]) -> Result<String, ComposeErr
         }
     }
     if !is_wasi(import) {
-        return Err(ComposeError::UnknownImport(import.to_owned()));
+        return Err(ComposeError::UnknownImport(import.into()));
     }
     // `ns:package/interface@0.2.x`
     let line = |name: &str| {
@@ -138,6 +142,6 @@ fn instance_for(import: &str, available: &[String]) -> Result<String, ComposeErr
         .find(|name| is_wasi(name) && wanted.is_some() && line(name) == wanted);
     match found {
         Some(name) => Ok(name.clone()),
-        None => Err(ComposeError::NotAnswered(import.to_owned())),
+        None => Err(ComposeError::NotAnswered(import.into())),
     }
 }

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use serde::{Deserialize, Serialize};
+use wasmouse_core::GuestText;
 
 use super::{instrument, meter};
 use crate::runtime::{readable, shortened};
@@ -24,9 +25,9 @@ pub struct Profile {
 /// A function of a profile.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct ProfiledFunction {
-    /// Its name, demangled and cut, unescaped; or else `wasm-function[N]` with its index, and
+    /// Its name, demangled and cut; or else `wasm-function[N]` with its index, and
     /// `module M` before it when the robot has several modules.
-    pub name: String,
+    pub name: GuestText,
 }
 
 /// A function, called on the path of its parent.
@@ -132,6 +133,7 @@ impl Profile {
                     name = format!("wasm-function[{}]", all[node.function as usize].index);
                 }
                 names_bytes += name.len();
+                let name = name.into();
                 profile.functions.push(ProfiledFunction { name });
                 u32::try_from(profile.functions.len() - 1).unwrap_or(u32::MAX)
             });

@@ -2,13 +2,13 @@
 //!
 //! Only an engine made for it gathers frames ([`Runtime::for_backtraces`](super::Runtime)), so an
 //! ordinary match pays nothing. Names and places come from the robot's own name section
-//! and DWARF debug information: they are text that is untrusted, cut to a length here and
-//! escaped by whoever shows them.
+//! and DWARF debug information: they are guest text, cut to a length here.
 
 use serde::{Deserialize, Serialize};
+use wasmouse_core::GuestText;
 use wasmtime::{FrameInfo, FrameSymbol, WasmBacktrace};
 
-use super::names::{NAME_CHARS_MAX, Origin, cut, readable};
+use super::names::{NAME_CHARS_MAX, Origin, readable};
 
 /// Frames that are kept, most recent call first.
 pub(crate) const FRAMES_MAX: usize = 40;
@@ -23,12 +23,12 @@ const UNNAMED: &str = "function ";
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Frame {
     /// The function: its name, or else its index.
-    pub function: String,
+    pub function: GuestText,
     /// The byte in the module's file, when known.
     pub offset: Option<u64>,
     /// The file, line and column of the source code, as `src/lib.rs:12:5`, when the robot
     /// has debug information.
-    pub source: Option<String>,
+    pub source: Option<GuestText>,
 }
 
 /// A part of a backtrace.
@@ -47,7 +47,10 @@ pub enum FramePart<'a> {
 
 /// Whose code the functions are; `None` for the robot's.
 fn origins(frames: &[Frame]) -> Vec<Option<Origin>> {
-    let mut origins: Vec<_> = frames.iter().map(|it| Origin::of(&it.function)).collect();
+    let mut origins: Vec<_> = frames
+        .iter()
+        .map(|it| Origin::of(it.function.raw()))
+        .collect();
     // An interpreter runs no code of the robot: what it calls is its own, under whatever name.
     let interpreters = origins.iter().enumerate();
     let oldest = interpreters.rev().find_map(|(at, it)| {
@@ -95,13 +98,13 @@ impl Frame {
     fn new(info: &FrameInfo, symbol: Option<&FrameSymbol>) -> Self {
         let named = symbol.and_then(FrameSymbol::name).or(info.func_name());
         let function = match named {
-            Some(name) => readable(name),
-            None => format!("{UNNAMED}{}", info.func_index()),
+            Some(name) => readable(name).into(),
+            None => format!("{UNNAMED}{}", info.func_index()).into(),
         };
         Self {
             function,
             offset: info.module_offset().and_then(|at| u64::try_from(at).ok()),
-            source: symbol.and_then(source),
+            source: symbol.and_then(source).map(GuestText::from),
         }
     }
 
@@ -128,17 +131,21 @@ impl Frame {
     }
 
     fn is_named(&self) -> bool {
-        !self.function.starts_with(UNNAMED)
+        !self.function.as_guest().starts_with(UNNAMED)
     }
 
     /// The frame as it may have come from a worker that is not itself any more.
     pub(crate) fn checked(self) -> Self {
         Self {
-            function: cut(&self.function, NAME_CHARS_MAX).to_owned(),
-            source: self.source.map(|it| cut(&it, PLACE_CHARS_MAX).to_owned()),
+            function: cut(&self.function, NAME_CHARS_MAX),
+            source: self.source.map(|it| cut(&it, PLACE_CHARS_MAX)),
             ..self
         }
     }
+}
+
+fn cut(text: &GuestText, chars_max: usize) -> GuestText {
+    text.as_guest().cut(chars_max).0.into()
 }
 
 /// A place in source code, when its file is known.
@@ -169,7 +176,7 @@ mod tests {
 
     fn frames(functions: &[&str]) -> Vec<Frame> {
         let frame = |function: &&str| Frame {
-            function: (*function).to_owned(),
+            function: (*function).into(),
             offset: None,
             source: None,
         };
@@ -183,7 +190,7 @@ mod tests {
             let parts = Frame::folded(&frames).into_iter();
             let parts: Vec<String> = parts
                 .map(|part| match part {
-                    FramePart::Frame(frame) => frame.function.clone(),
+                    FramePart::Frame(frame) => frame.function.raw().to_owned(),
                     FramePart::Folded { of, frames } => format!("{frames} of {}", of.name()),
                 })
                 .collect();

@@ -85,9 +85,9 @@ pub(crate) struct CacheEntry<'a> {
 /// A rejection as it is stored.
 #[derive(Serialize, Deserialize)]
 struct StoredRejection {
-    name: String,
+    name: GuestText,
     reason: GuestText,
-    hint: String,
+    hint: GuestText,
 }
 
 impl CacheEntry<'_> {
@@ -135,9 +135,9 @@ impl CacheEntry<'_> {
             return;
         }
         let stored = StoredRejection {
-            name: rejection.name().to_owned(),
+            name: rejection.name().into(),
             reason: rejection.reason(),
-            hint: rejection.hint().to_owned(),
+            hint: rejection.hint().into(),
         };
         let bytes = postcard::to_stdvec(&stored).expect("texts can be written to memory");
         if bytes.len() as u64 <= EntryKind::Rejection.bytes_max() {

@@ -4,6 +4,7 @@
 //! when they link and at their types only in an instance; a robot with other
 //! types would be admitted and fail in every match.
 
+use wasmouse_core::guest_text;
 use wasmtime::component::Component;
 use wasmtime::component::types::{ComponentFunc, ComponentInstance, ComponentItem};
 
@@ -20,8 +21,9 @@ pub(crate) fn check_types(component: &Component) -> Result<(), Rejection> {
     // As the bindings look it up: another patch version is found as well.
     let item = component.get_export(None, CONTROLLER);
     let Some((ComponentItem::ComponentInstance(controller), _)) = item else {
-        return Err(Rejection::WrongType(format!(
-            "`{CONTROLLER}` is not an interface"
+        return Err(Rejection::WrongType(guest_text!(
+            "`{}` is not an interface",
+            CONTROLLER
         )));
     };
     let types = component_type.instance_type();
@@ -42,16 +44,23 @@ fn function(
     match controller.get_export(component.engine(), name) {
         Some(export) => match export.ty {
             ComponentItem::ComponentFunc(function) => Ok(function),
-            _ => Err(Rejection::WrongType(format!("`{name}` is not a function"))),
+            _ => Err(Rejection::WrongType(guest_text!(
+                "`{}` is not a function",
+                name
+            ))),
         },
-        None => Err(Rejection::WrongType(format!(
-            "`{CONTROLLER}` has no function `{name}`"
+        None => Err(Rejection::WrongType(guest_text!(
+            "`{}` has no function `{}`",
+            CONTROLLER,
+            name
         ))),
     }
 }
 
 fn wrong_type(name: &str, error: &wasmtime::Error) -> Rejection {
-    Rejection::WrongType(format!(
-        "the function `{name}` has the wrong type: {error:#}"
+    Rejection::WrongType(guest_text!(
+        "the function `{}` has the wrong type: {}",
+        name,
+        format!("{error:#}")
     ))
 }

@@ -5,6 +5,7 @@
 //! nothing but itself, in messages about its own robot.
 
 use cpp_demangle::Symbol;
+use wasmouse_core::GuestText;
 
 /// Characters of a name that are kept.
 pub(super) const NAME_CHARS_MAX: usize = 160;
@@ -27,12 +28,12 @@ pub(crate) fn readable(name: &str) -> String {
 }
 
 /// The name, cut.
-pub(crate) fn shortened(name: &str) -> String {
-    cut(name, NAME_CHARS_MAX).to_owned()
+pub(crate) fn shortened(name: &GuestText) -> GuestText {
+    name.as_guest().cut(NAME_CHARS_MAX).0.into()
 }
 
 /// The first characters of a text.
-pub(super) fn cut(text: &str, chars_max: usize) -> &str {
+fn cut(text: &str, chars_max: usize) -> &str {
     match text.char_indices().nth(chars_max) {
         Some((end, _)) => &text[..end],
         None => text,

@@ -255,7 +255,7 @@ impl Runtime {
     }
 
     fn link(&self, component: &Component) -> Result<RobotPre<Guest>, Rejection> {
-        let wrong_type = |error: wasmtime::Error| Rejection::WrongType(format!("{error:#}"));
+        let wrong_type = |error: wasmtime::Error| Rejection::WrongType(format!("{error:#}").into());
         let pre: InstancePre<Guest> = self.linker.instantiate_pre(component).map_err(wrong_type)?;
         interface::check_types(component)?;
         RobotPre::new(pre).map_err(wrong_type)

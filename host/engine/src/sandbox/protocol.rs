@@ -283,17 +283,17 @@ pub(super) struct Backtrace {
 /// A rejection as text.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct RejectionText {
-    pub(super) name: String,
+    pub(super) name: GuestText,
     pub(super) reason: GuestText,
-    pub(super) hint: String,
+    pub(super) hint: GuestText,
 }
 
 impl From<Rejection> for RejectionText {
     fn from(rejection: Rejection) -> Self {
         Self {
-            name: rejection.name().to_owned(),
+            name: rejection.name().into(),
             reason: rejection.reason(),
-            hint: rejection.hint().to_owned(),
+            hint: rejection.hint().into(),
         }
     }
 }

@@ -10,14 +10,14 @@ pub fn print_unplayed(matrix: &ScoreMatrix) {
         if let Some(NotAdmitted::Failed(reason)) = &robot.not_admitted {
             message!(
                 "error: `{}` could not be admitted: {}",
-                robot.name,
+                robot.name.escaped(),
                 reason.escaped()
             );
         }
         for (reason, matches) in &robot.unplayed {
             message!(
                 "`{}`: {} matches were not played: {}",
-                robot.name,
+                robot.name.escaped(),
                 matches,
                 reason.escaped()
             );

@@ -4,9 +4,9 @@ use std::collections::{HashMap, HashSet};
 use std::path::Path;
 use std::sync::Arc;
 
-use wasmouse_core::Digest;
 use wasmouse_core::game::Ruleset;
 use wasmouse_core::record::MatchKey;
+use wasmouse_core::{Digest, GuestText};
 use wasmouse_engine::admission::Rejection;
 use wasmouse_engine::{AdmissionLimits, engine_id};
 
@@ -298,7 +298,7 @@ impl PlannedContest {
                 }
             }
             let class = self.folder.file.class_by_usage(step_fuel, memory_bytes);
-            matrix.robots[robot].class = class.map(str::to_owned);
+            matrix.robots[robot].class = class.map(GuestText::from);
         }
     }
 

@@ -11,8 +11,8 @@ use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use indicatif::ProgressBar;
-use wasmouse_core::Digest;
 use wasmouse_core::game::Verdict;
+use wasmouse_core::{Digest, GuestText};
 
 use super::super::bar;
 use super::super::output::message;
@@ -49,7 +49,7 @@ struct State {
 
 /// The matches of a robot.
 struct Sum {
-    name: String,
+    name: GuestText,
     matches: u32,
     /// Scores times the divisor of the rules; an unfinished match counts as the penalty.
     numerator: u64,
@@ -159,10 +159,10 @@ impl Progress {
     /// The first robots by their average score over the matches so far.
     fn line(&self, state: &State) -> String {
         let played = state.robots.values().filter(|it| it.matches > 0);
-        let mut order: Vec<(Mean, &str)> = played
+        let mut order: Vec<(Mean, &GuestText)> = played
             .map(|it| {
                 let denominator = i128::from(it.matches) * i128::from(self.divisor);
-                (Mean::fraction(it.numerator.into(), denominator), &*it.name)
+                (Mean::fraction(it.numerator.into(), denominator), &it.name)
             })
             .collect();
         order.sort();

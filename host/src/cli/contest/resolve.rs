@@ -5,10 +5,10 @@ use std::collections::hash_map::Entry;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use wasmouse_core::Digest;
 use wasmouse_core::game::Ruleset;
 use wasmouse_core::maze::bundled as bundled_mazes;
 use wasmouse_core::maze::generate::GenSpec;
+use wasmouse_core::{Digest, GuestText};
 
 use super::super::failure::Failure;
 use super::super::mazes::{self, BadFiles, Legality, Request, Source};
@@ -38,12 +38,12 @@ pub struct ResolvedRobot {
     /// The robot. `robots::load` makes entrants of it.
     pub spec: RobotSpec,
     /// What results call it. Names are unique.
-    pub name: String,
+    pub name: GuestText,
     /// Who submitted it; `None` for bundled robots.
-    pub author: Option<String>,
+    pub author: Option<GuestText>,
     /// The class that the file says it competes in. Else it depends on what it uses:
     /// [`ContestFile::class_by_usage`](crate::contest::ContestFile::class_by_usage).
-    pub class: Option<String>,
+    pub class: Option<GuestText>,
 }
 
 /// A set of mazes.
@@ -100,9 +100,9 @@ fn all_robots(contest: &ContestFolder) -> Result<Vec<ResolvedRobot>, Failure> {
         author: entry
             .author
             .as_ref()
-            .map(|it| it.as_str().to_owned())
+            .map(|it| it.as_str().into())
             .or(author),
-        class: entry.class.as_ref().map(|it| it.as_str().to_owned()),
+        class: entry.class.as_ref().map(|it| it.as_str().into()),
     });
     Ok(robots.collect())
 }
@@ -112,9 +112,9 @@ fn entry_robots(
     contest: &ContestFolder,
     entry: &RobotsEntry,
     index: usize,
-) -> Result<Vec<(RobotSpec, Option<String>)>, Failure> {
+) -> Result<Vec<(RobotSpec, Option<GuestText>)>, Failure> {
     let variants = entry.variant_numbers();
-    let name = entry.name.as_ref().map(|it| it.as_str().to_owned());
+    let name = entry.name.as_ref().map(|it| GuestText::from(it.as_str()));
     let source = entry.source();
     let path = match source.expect("a parsed file says where robots are") {
         RobotSource::Path(path) => path,
@@ -145,7 +145,7 @@ fn entry_robots(
                 it.file_stem()
             }
         });
-        let author = author.map(|it| it.to_string_lossy().into_owned());
+        let author = author.map(|it| GuestText::from(it.to_string_lossy().into_owned()));
         let name = name
             .clone()
             .or_else(|| author.clone().filter(|_| in_folder));
@@ -241,7 +241,7 @@ pub fn all_mazes(contest: &ContestFolder) -> Result<Vec<ResolvedSet>, Failure> {
 
 /// The mazes that were read, with set and name of each.
 #[derive(Default)]
-struct Seen(HashMap<Digest, (usize, String)>);
+struct Seen(HashMap<Digest, (usize, GuestText)>);
 
 impl Seen {
     /// Whether a maze of a path of a set is none of those before. It may be one of its own set.
@@ -264,17 +264,17 @@ impl Seen {
         if other == set {
             message!(
                 "warning: skipped `{}`, which is the same maze as `{}`",
-                name,
-                twin
+                name.escaped(),
+                twin.escaped()
             );
             return Ok(false);
         }
         let sets = [set, other].map(|it| contest.file.mazes[it].set.as_str());
         let message = text!(
             "maze `{}` of set `{}` is the same as `{}` of set `{}`",
-            name,
+            name.escaped(),
             sets[0],
-            twin,
+            twin.escaped(),
             sets[1]
         );
         let key = format!("mazes[{set}].paths[{index}]");

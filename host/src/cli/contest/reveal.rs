@@ -62,7 +62,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
                 missing += 1;
                 message!(
                     "error: maze `{}` of set `{}` was not played in {}",
-                    maze.name,
+                    maze.name.escaped(),
                     set.name,
                     Text::of_path(path)
                 );

@@ -225,7 +225,8 @@ impl Args {
         let mut entrants = robots::load(&specs, executor)?;
         for (entrant, planned) in entrants.iter_mut().zip(robots) {
             if entrant.digest != planned.digest {
-                let message = format!("robot `{}` was changed meanwhile", planned.robot.name);
+                let name = planned.robot.name.escaped();
+                let message = format!("robot `{name}` was changed meanwhile");
                 return Err(Failure::input(message).hint("run the contest again"));
             }
             entrant.name.clone_from(&planned.robot.name);

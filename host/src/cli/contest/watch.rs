@@ -4,7 +4,7 @@ use std::path::Path;
 use std::thread;
 use std::time::Duration;
 
-use wasmouse_core::Digest;
+use wasmouse_core::{Digest, GuestText};
 
 use super::super::interrupt;
 use super::super::output::message;
@@ -19,7 +19,7 @@ const TICK: Duration = Duration::from_millis(100);
 /// What a contest consisted of when it was played last.
 #[derive(Default)]
 pub struct Watch {
-    played: Option<Vec<(String, Digest, u32)>>,
+    played: Option<Vec<(GuestText, Digest, u32)>>,
     complaint: Option<String>,
 }
 
@@ -63,7 +63,7 @@ impl Watch {
     }
 }
 
-fn entries(contest: &PlannedContest) -> Vec<(String, Digest, u32)> {
+fn entries(contest: &PlannedContest) -> Vec<(GuestText, Digest, u32)> {
     let robots = contest.robots.iter();
     robots
         .map(|it| {

@@ -1,6 +1,7 @@
 //! [`Driver`]: a match in progress, and what keys do in it.
 
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use wasmouse_core::GuestText;
 use wasmouse_core::game::{Action, BudgetScope, GameRules, Score, Simulation, Trace, Verdict};
 use wasmouse_core::knowledge::Knowledge;
 use wasmouse_core::maze::{Cell, Maze, Turn};
@@ -9,8 +10,8 @@ use super::super::tui::{Camera, Flow, Look, Zoom};
 
 /// A match that is steered by hand.
 pub struct Driver<'a> {
-    /// What the maze is called; untrusted.
-    pub name: String,
+    /// What the maze is called.
+    pub name: GuestText,
     /// The rules.
     pub rules: &'a GameRules,
     /// The score of a robot that knows the maze; only shown at the end.
@@ -47,9 +48,14 @@ pub struct Driver<'a> {
 
 impl<'a> Driver<'a> {
     /// A match before its first step.
-    pub fn new(name: String, maze: &'a Maze, rules: &'a GameRules, look: Look) -> Self {
+    pub fn new(
+        name: impl Into<GuestText>,
+        maze: &'a Maze,
+        rules: &'a GameRules,
+        look: Look,
+    ) -> Self {
         let mut driver = Self {
-            name,
+            name: name.into(),
             rules,
             oracle: rules.oracle_score(maze),
             simulation: Simulation::new(maze, rules),
@@ -198,7 +204,7 @@ mod tests {
     fn keys_are_steps_of_the_game() {
         let maze = Maze::contest(Walls::open(6)).expect("start and goal fit");
         let rules = GameRules::default();
-        let mut driver = Driver::new("open".to_owned(), &maze, &rules, PLAIN);
+        let mut driver = Driver::new("open", &maze, &rules, PLAIN);
         press(&mut driver, "3<up>2<right>1<left>s0ab2dr9<up>");
         let steps: Vec<Action> = driver.trace.steps().iter().map(|it| it.action).collect();
         let drive = |turn, advance| Action::Move { turn, advance };
@@ -225,7 +231,7 @@ mod tests {
     fn a_match_that_is_driven_scores_like_one_that_is_played() {
         let maze = format::parse(bundled()[0].text).expect("a maze").maze;
         let rules = GameRules::default();
-        let mut driver = Driver::new("maze".to_owned(), &maze, &rules, PLAIN);
+        let mut driver = Driver::new("maze", &maze, &rules, PLAIN);
         let path = shortest_path(&maze, Metric::STEPS).expect("a path");
         for _ in 0..2 {
             for (heading, cells) in path.moves() {
@@ -255,7 +261,7 @@ mod tests {
             budget: 2,
             ..GameRules::default()
         };
-        let mut driver = Driver::new("open".to_owned(), &maze, &rules, PLAIN);
+        let mut driver = Driver::new("open", &maze, &rules, PLAIN);
         assert_eq!(press(&mut driver, "q"), Flow::End);
         assert_eq!(press(&mut driver, "wq"), Flow::Go);
         assert_eq!(press(&mut driver, "w"), Flow::Go);
@@ -281,7 +287,7 @@ mod tests {
             budget: 40,
             ..GameRules::default()
         };
-        let mut driver = Driver::new("maze".to_owned(), &maze, &rules, PLAIN);
+        let mut driver = Driver::new("maze", &maze, &rules, PLAIN);
         let keys = "w2wd3wsar1wd2dwwbaab";
         let mut known = vec![driver.knowledge.clone()];
         while driver.verdict().is_none() {

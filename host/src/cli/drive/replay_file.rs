@@ -58,7 +58,7 @@ fn of(driver: &Driver<'_>, maze: &Maze, rules: &Ruleset) -> Result<Replay, Failu
     };
     let parts = ReplayParts {
         robot: DRIVER.into(),
-        maze_name: driver.name.as_str().into(),
+        maze_name: driver.name.clone(),
         maze: maze.clone(),
         rules: rules.clone(),
         record: MatchRecord::new(key, result, Usage::default(), &transcript),
@@ -86,7 +86,7 @@ mod tests {
             budget: 5,
             ..rules.game
         };
-        let mut driver = Driver::new("hall".to_owned(), &maze, &rules.game, Look::RICH);
+        let mut driver = Driver::new("hall", &maze, &rules.game, Look::RICH);
         press(&mut driver, "2wdrwd");
         let folder = tempfile::tempdir().expect("a temporary folder");
         let path = folder.path().join("a.replay.json");

@@ -46,8 +46,10 @@ pub fn draw(driver: &mut Driver<'_>, buffer: &mut Buffer) {
         height: 1,
         ..screen
     };
-    Writer::new(buffer, line(0), look)
-        .line(&[("driving in ", Role::Faint), (&driver.name, Role::Strong)]);
+    Writer::new(buffer, line(0), look).parts([
+        ("driving in ".into(), Role::Faint),
+        ((&driver.name).into(), Role::Strong),
+    ]);
     let body = Rect {
         y: screen.y + 1,
         height: screen.height - 2,
@@ -238,7 +240,7 @@ mod tests {
             budget: 3,
             ..GameRules::default()
         };
-        let mut driver = Driver::new("maze".to_owned(), &maze, &rules, look(Charset::Ascii));
+        let mut driver = Driver::new("maze", &maze, &rules, look(Charset::Ascii));
         press(&mut driver, "3www");
         let screen = screen_of(&mut driver, 100, 30);
         assert!(screen.is_ascii(), "{screen}");

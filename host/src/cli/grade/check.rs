@@ -32,7 +32,7 @@ pub fn baseline<'a>(
     } else {
         let results = read_results(&bytes).map_err(|error| failed(&error))?;
         let names = results.names();
-        let name = |record: &MatchRecord| Some(names.robot(&record.key).raw());
+        let name = |record: &MatchRecord| Some(names.robot(&record.key));
         Baseline::new(&results.matches, name, robot, &rubric.rules)
     };
     let baseline = baseline.map_err(|error| failed(&error))?;

@@ -14,6 +14,7 @@ mod verdict;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use wasmouse_core::GuestText;
 use wasmouse_engine::engine_id;
 
 use super::exit::Exit;
@@ -123,7 +124,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         Err(failure) => failure.message().as_str().to_owned(),
     };
     let matrix = matrix.finish();
-    let names: Vec<String> = plan.mazes.iter().map(|it| it.name()).collect();
+    let names: Vec<GuestText> = plan.mazes.iter().map(|it| it.name()).collect();
     let graded = Graded {
         rubric: &rubric.rubric,
         matrix: &matrix,

@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
-use wasmouse_core::Digest;
 use wasmouse_core::maze::bundled;
 use wasmouse_core::maze::generate::{GenSpec, GeneratedMaze};
+use wasmouse_core::{Digest, GuestText};
 
 use super::super::failure::Failure;
 use super::super::input;
@@ -15,6 +15,7 @@ use crate::contest::MazeSource;
 use crate::contest::config::{BYTES_MAX, ConfigError, Document, decode, suggestion};
 use crate::contest::grade::{Baseline, Expectation, Rubric};
 use crate::report::config::config_error;
+use crate::report::escape::for_terminal;
 use crate::report::text::Text;
 
 /// A rubric and its file.
@@ -101,7 +102,7 @@ impl RubricFile {
     /// When something that the rubric names does not exist or cannot be used.
     pub fn contest(&self) -> Result<GradeContest, Failure> {
         let (mazes, members) = self.mazes()?;
-        let names: Vec<String> = mazes.iter().map(MazeSource::name).collect();
+        let names: Vec<GuestText> = mazes.iter().map(MazeSource::name).collect();
         let criteria = 0..self.rubric.criteria.len();
         let scopes = criteria.map(|it| self.scope(it, &names, &members));
         let scopes: Vec<Vec<usize>> = scopes.collect::<Result<_, _>>()?;
@@ -180,7 +181,7 @@ impl RubricFile {
     fn scope(
         &self,
         criterion: usize,
-        names: &[String],
+        names: &[GuestText],
         members: &[Vec<usize>],
     ) -> Result<Vec<usize>, Failure> {
         let entry = &self.rubric.criteria[criterion];
@@ -190,11 +191,12 @@ impl RubricFile {
             let mut sets = self.rubric.sets.iter().zip(members);
             if let Some((_, members)) = sets.find(|(set, _)| set.name == *name) {
                 scope.extend_from_slice(members);
-            } else if let Some(index) = names.iter().position(|it| it == name) {
+            } else if let Some(index) = names.iter().position(|it| *it == *name.as_str()) {
                 scope.push(index);
             } else {
                 let message = format!("there is no set and no maze `{name}` in this rubric");
                 let sets = self.rubric.sets.iter().map(|it| it.name.as_str());
+                let names: Vec<String> = names.iter().map(for_terminal).collect();
                 let hint = suggestion(name, sets.chain(names.iter().map(String::as_str)));
                 return Err(self.error(&key, &message, hint));
             }

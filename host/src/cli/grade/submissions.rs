@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use wasmouse_core::GuestText;
 use wasmouse_engine::LocalExecutor;
 use wasmouse_engine::bundled::find;
 
@@ -42,7 +43,7 @@ impl Field {
             let found = match robots::resolve(argument) {
                 Ok(found) => found,
                 Err(failure) => {
-                    submissions.push(missing(argument.clone(), failure)?);
+                    submissions.push(missing(argument.clone().into(), failure)?);
                     continue;
                 }
             };
@@ -73,7 +74,7 @@ impl Field {
 }
 
 /// A robot that cannot be graded; the failure itself when that is no matter of the robot.
-fn missing(name: String, failure: Failure) -> Result<Submission, Failure> {
+fn missing(name: GuestText, failure: Failure) -> Result<Submission, Failure> {
     match failure.exit() {
         Exit::Input | Exit::Robot => Ok(Submission::Missing {
             name,
@@ -118,7 +119,7 @@ fn reference(rubric: &RubricFile, name: &str) -> Result<RobotSpec, Failure> {
         robots::resolve(&format!("reference {bundled}={name}"))?
     } else {
         let files = robots::files_at(&rubric.folder().join(name))?.into_iter();
-        let spec = |file| RobotSpec::of_file(file, 0, Some(format!("reference {name}")));
+        let spec = |file| RobotSpec::of_file(file, 0, Some(format!("reference {name}").into()));
         files.map(spec).collect()
     };
     match (found.pop(), found.is_empty()) {

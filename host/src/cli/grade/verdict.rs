@@ -13,10 +13,6 @@ use crate::report::grade::for_workflow;
 pub fn exit(grades: &[Grade]) -> Exit {
     for grade in grades {
         if let Some(reason) = grade.participation.reason() {
-            let hint = match &grade.participation {
-                Participation::Rejected { hint, .. } => format!("\n  hint: {hint}"),
-                _ => String::new(),
-            };
             let text = |it: GuestStr<'_>| for_workflow(&for_terminal(it));
             message!(
                 "{} `{}`: {}",
@@ -24,8 +20,8 @@ pub fn exit(grades: &[Grade]) -> Exit {
                 text(GuestStr::from(&grade.robot)),
                 text(reason.as_guest())
             );
-            for line in hint.lines().filter(|it| !it.is_empty()) {
-                message!("{}", line);
+            if let Participation::Rejected { hint, .. } = &grade.participation {
+                message!("  hint: {}", text(hint.as_guest()));
             }
         }
     }

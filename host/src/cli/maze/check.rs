@@ -8,6 +8,7 @@ use super::super::mazes::{self, Source};
 use super::super::output::{self, message};
 use crate::report::maze_check::{CheckedMaze, MazeCheck};
 use crate::report::text::Text;
+use wasmouse_core::GuestText;
 use wasmouse_core::maze::format::Format;
 use wasmouse_core::maze::{Maze, Survey, Violation, violations};
 
@@ -47,7 +48,7 @@ pub struct Args {
 
 /// A source and what came out of it.
 struct Checked {
-    label: String,
+    label: GuestText,
     outcome: Result<Judged, Failure>,
 }
 
@@ -79,7 +80,7 @@ fn check(spec: &str) -> Vec<Checked> {
     match mazes::resolve(spec) {
         Ok(sources) => sources.iter().map(check_source).collect(),
         Err(failure) => vec![Checked {
-            label: Text::of_path(spec).as_str().to_owned(),
+            label: Text::of_path(spec).as_str().into(),
             outcome: Err(failure),
         }],
     }
@@ -132,7 +133,8 @@ fn listing(checked: &[Checked], lenient: bool) -> String {
             (1, true) => "ok, but breaks 1 contest rule".to_owned(),
             (count, true) => format!("ok, but breaks {count} contest rules"),
         };
-        writeln!(text, "{}: {verdict}", checked.label).expect("writing to a string never fails");
+        writeln!(text, "{}: {verdict}", checked.label.escaped())
+            .expect("writing to a string never fails");
         for violation in broken {
             writeln!(text, "  {violation}").expect("writing to a string never fails");
         }

@@ -63,7 +63,8 @@ pub fn run(args: Args) -> Result<Exit, Failure> {
         return Err(Failure::usage(message));
     };
     let text = format::print(&maze.maze, args.to).map_err(|error| {
-        Failure::input(format!("failed to convert maze `{}`: {error}", maze.name))
+        let name = maze.name.escaped();
+        Failure::input(format!("failed to convert maze `{name}`: {error}"))
             .hint("--to competition holds any start and goal")
     })?;
     match args.output {

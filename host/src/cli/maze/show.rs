@@ -136,7 +136,7 @@ fn texts(mazes: &[NamedMaze], args: &Args) -> String {
     for (place, named) in mazes.iter().enumerate() {
         if mazes.len() > 1 {
             let gap = if place > 0 { "\n" } else { "" };
-            text.push_str(&format!("{gap}{}\n", named.name));
+            text.push_str(&format!("{gap}{}\n", named.name.escaped()));
         }
         text.push_str(&picture(named, args).to_text(style));
     }
@@ -157,7 +157,7 @@ fn picture(named: &NamedMaze, args: &Args) -> Picture {
     } else if !matches!(args.path, PathChoice::None) {
         message!(
             "warning: the goal of maze `{}` cannot be reached",
-            named.name
+            named.name.escaped()
         );
     }
     if let Some(metric) = args.numbers {

@@ -86,7 +86,7 @@ fn listing(mazes: &[ContestMaze], solutions: &[Option<Solution>], brief: bool) -
         writeln!(text, "{line}").expect("writing to a string never fails");
     };
     for (maze, solution) in mazes.iter().zip(solutions) {
-        let name = &maze.name;
+        let name = maze.name.escaped();
         let Some(solution) = solution else {
             line(format_args!("{name}: the goal cannot be reached"));
             continue;
@@ -149,7 +149,7 @@ mod tests {
             mazes::load(&names, Legality::Contest, BadFiles::Fail).expect("a bundled maze");
         let closed = Maze::contest(Walls::closed(12)).expect("room for both");
         mazes.push(MazeSource::Loaded {
-            name: "closed".to_owned(),
+            name: "closed".into(),
             maze: Arc::new(closed),
         });
         let rules = GameRules::default();

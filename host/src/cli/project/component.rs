@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_engine::Limits;
 use wasmouse_engine::admission::wasi::{self, ComposeError};
 use wasmouse_engine::admission::{BinaryKind, componentize, examine};
@@ -15,19 +16,19 @@ use crate::report::text::{Text, text};
 ///
 /// When it is no robot; the failure says what `source` lacks.
 pub fn to_component(file: &[u8], source: &Path) -> Result<Vec<u8>, Failure> {
-    let failure = |reason: String, hint: &str| {
+    let failure = |reason: String, hint: GuestStr<'_>| {
         Failure::robot(text!(
             "cannot build a robot from `{}`: {}",
             Text::of_path(source),
             reason
         ))
-        .hint(hint)
+        .hint(hint.escaped())
     };
     match BinaryKind::of(file) {
         BinaryKind::Component => match wasi::compose(file, &Limits::default()) {
             // A robot as it is, which `componentize` says.
             Err(ComposeError::WithoutWasi) => {
-                componentize(file).map_err(|error| failure(error.to_string(), error.hint()))
+                componentize(file).map_err(|error| failure(error.to_string(), error.hint().into()))
             }
             composed => composed.map_err(|error| failure(error.to_string(), error.hint())),
         },
@@ -38,6 +39,6 @@ pub fn to_component(file: &[u8], source: &Path) -> Result<Vec<u8>, Failure> {
                 rejection.hint(),
             )),
         },
-        _ => componentize(file).map_err(|error| failure(error.to_string(), error.hint())),
+        _ => componentize(file).map_err(|error| failure(error.to_string(), error.hint().into())),
     }
 }

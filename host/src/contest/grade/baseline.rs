@@ -2,9 +2,10 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use wasmouse_core::Digest;
 use wasmouse_core::game::{Ruleset, Score, Steps, Verdict};
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::record::MatchRecord;
+use wasmouse_core::{Digest, GuestText};
 
 use super::super::mean::Mean;
 use super::super::plan::Seeds;
@@ -34,10 +35,10 @@ pub enum BaselineError {
     #[error("its matches were played by other rules than those of the rubric")]
     OtherRules,
     /// Matches of the rubric are not in it.
-    #[error("it has no match in maze `{maze}` with seed {seed}")]
+    #[error("it has no match in maze `{}` with seed {seed}", maze.escaped())]
     MissingMatch {
         /// The maze.
-        maze: String,
+        maze: GuestText,
         /// The seed.
         seed: u64,
     },
@@ -52,7 +53,7 @@ impl Baseline {
     /// When no robot is meant, or more than one, or the rules are others.
     pub fn new<'a>(
         records: &'a [MatchRecord],
-        name: impl Fn(&MatchRecord) -> Option<&'a str>,
+        name: impl Fn(&MatchRecord) -> Option<GuestStr<'a>>,
         robot: Option<&str>,
         rules: &Ruleset,
     ) -> Result<Self, BaselineError> {
@@ -60,7 +61,9 @@ impl Baseline {
             return Err(BaselineError::Empty);
         }
         let is_meant = |record: &&MatchRecord| {
-            robot.is_none_or(|it| name(record) == Some(it) || record.key.robot.to_string() == it)
+            robot.is_none_or(|it| {
+                name(record).is_some_and(|name| name == it) || record.key.robot.to_string() == it
+            })
         };
         let records: Vec<&MatchRecord> = records.iter().filter(is_meant).collect();
         let players: BTreeSet<_> = records
@@ -94,12 +97,17 @@ impl Baseline {
     /// # Errors
     ///
     /// With the first that it has not.
-    pub fn require(&self, name: &str, maze: Digest, seeds: Seeds) -> Result<(), BaselineError> {
+    pub fn require(
+        &self,
+        name: &GuestText,
+        maze: Digest,
+        seeds: Seeds,
+    ) -> Result<(), BaselineError> {
         let mut all = (0..seeds.count).map(|it| seeds.get(it));
         match all.find(|&seed| !self.scores.contains_key(&(maze, seed))) {
             None => Ok(()),
             Some(seed) => Err(BaselineError::MissingMatch {
-                maze: name.to_owned(),
+                maze: name.clone(),
                 seed,
             }),
         }

@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, HashMap};
 
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::{GuestText, guest_text};
 
 use super::super::matrix::{MatrixRobot, Outcome, ScoreMatrix};
@@ -24,7 +25,7 @@ pub struct Graded<'a> {
     /// Why matches were not played.
     pub unplayed: &'a UnplayedMatches,
     /// The names of all mazes that were to be played.
-    pub mazes: &'a [String],
+    pub mazes: &'a [GuestText],
     /// By criterion, the mazes that count for it, as indices of `mazes`.
     pub scopes: &'a [Vec<usize>],
     /// Reference robots by what the rubric calls them, as indices of the matrix.
@@ -44,7 +45,7 @@ pub enum Submission {
     /// There is nothing to grade.
     Missing {
         /// What it is called.
-        name: String,
+        name: GuestText,
         /// Why.
         reason: GuestText,
     },
@@ -69,7 +70,7 @@ pub fn grade(graded: &Graded<'_>, submission: &Submission) -> Grade {
         (_, entry) => entry.map(|it| it.name.clone()).unwrap_or_default(),
     };
     Grade {
-        robot: name.into(),
+        robot: name,
         digest: entry.map(|it| it.digest),
         variant: entry.map_or(0, |it| it.variant),
         is_passed: rubric.mark.is_reached(points_thousandths, points_max)
@@ -96,9 +97,9 @@ impl Graded<'_> {
         let entry = &self.matrix.robots[robot];
         match &entry.not_admitted {
             Some(NotAdmitted::Rejected(rejection)) => Participation::Rejected {
-                kind: rejection.name().to_owned(),
+                kind: rejection.name().into(),
                 reason: rejection.reason(),
-                hint: rejection.hint().to_owned(),
+                hint: rejection.hint().into(),
             },
             Some(NotAdmitted::Failed(reason)) => Participation::HostFailed(reason.clone()),
             None => match self.unplayed.of(entry.digest, entry.variant).withdrawn {
@@ -131,7 +132,7 @@ impl Graded<'_> {
         let name_of = |digest| {
             let mut mazes = self.matrix.mazes.iter();
             let maze = mazes.find(|it| it.digest == digest);
-            GuestText::from(maze.map_or("?", |it| it.name.as_str()))
+            maze.map_or_else(|| "?".into(), |it| it.name.clone())
         };
         let faults = robot.faults.iter().filter_map(|(kind, fault)| {
             let message = fault.first.verdict.fault()?.describe();
@@ -151,14 +152,14 @@ impl Graded<'_> {
 struct Grading<'a> {
     graded: &'a Graded<'a>,
     /// The mazes of the matrix by name. They are those of which some match was played.
-    places: HashMap<&'a str, usize>,
+    places: HashMap<GuestStr<'a>, usize>,
 }
 
 impl<'a> Grading<'a> {
     fn new(graded: &'a Graded<'a>) -> Self {
         let mut places = HashMap::new();
         for (index, maze) in graded.matrix.mazes.iter().enumerate() {
-            places.entry(maze.name.as_str()).or_insert(index);
+            places.entry(maze.name.as_guest()).or_insert(index);
         }
         Self { graded, places }
     }
@@ -249,7 +250,7 @@ impl<'a> Grading<'a> {
             .iter()
             .map(|&it| &self.graded.mazes[it]);
         let mazes: Option<Vec<usize>> = names
-            .map(|name| self.places.get(name.as_str()).copied())
+            .map(|name| self.places.get(&GuestStr::from(name)).copied())
             .collect();
         let mazes = mazes?;
         let scope = Scope {

@@ -37,11 +37,11 @@ pub enum Participation {
     /// Its file is rejected.
     Rejected {
         /// A short name: lowercase letters and hyphens.
-        kind: String,
+        kind: GuestText,
         /// Why.
         reason: GuestText,
         /// What to do.
-        hint: String,
+        hint: GuestText,
     },
     /// It took too long and was withdrawn: why. It may have played some matches.
     Withdrawn(GuestText),

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use wasmouse_core::Digest;
 use wasmouse_core::game::{FaultKind, Ruleset, Score, Steps};
 use wasmouse_core::record::FuelUse;
+use wasmouse_core::{Digest, GuestText};
 
 use super::super::matrix::{MatchScore, MatrixMaze, MatrixRobot, Outcome, ScoreMatrix};
 use super::super::plan::{NotAdmitted, Seeds};
@@ -36,22 +36,22 @@ fn fault() -> Option<MatchScore> {
 /// fails in the last maze, one that is rejected, and one without its last match.
 struct Played {
     matrix: ScoreMatrix,
-    mazes: Vec<String>,
+    mazes: Vec<GuestText>,
     unplayed: UnplayedMatches,
 }
 
 impl Played {
     fn new() -> Self {
-        let robot = |name: &str| MatrixRobot::new(name.to_owned(), Digest::of(name.as_bytes()), 0);
+        let robot = |name: &str| MatrixRobot::new(name, Digest::of(name.as_bytes()), 0);
         let mut robots = ["good", "bad", "lost", "late"].map(robot).to_vec();
         robots[2].not_admitted = Some(NotAdmitted::Failed("no worker".into()));
         let seeds = Seeds { first: 0, count: 1 };
         let mut matrix = ScoreMatrix::new(Ruleset::default(), seeds, robots);
-        let mazes: Vec<String> = (0..10).map(|it| format!("maze-{it}")).collect();
+        let mazes: Vec<GuestText> = (0..10).map(|it| format!("maze-{it}").into()).collect();
         for (index, name) in mazes.iter().enumerate() {
             matrix.push_maze(MatrixMaze {
                 name: name.clone(),
-                digest: Digest::of(name.as_bytes()),
+                digest: Digest::of(format!("maze-{index}").as_bytes()),
                 dimension: 12,
                 oracle: Some(Score::new(19, 30, 30)),
                 set: 0,

@@ -2,6 +2,8 @@
 
 use std::cmp::Ordering;
 
+use wasmouse_core::guest_text::GuestStr;
+
 use super::line::RankingLine;
 use super::order::RankKey;
 use super::percentiles::{Percentiles, percentile_scores};
@@ -46,7 +48,7 @@ impl Ranking {
         matrix: &ScoreMatrix,
         scoring: &Scoring,
         filter: MazeFilter,
-        class: Option<&str>,
+        class: Option<GuestStr<'_>>,
     ) -> Self {
         let selection = Selection::new(matrix, filter, class);
         let points = Points::new(&matrix.rules, scoring);

@@ -1,5 +1,7 @@
 //! [`Selection`]: which robots and mazes of a matrix count.
 
+use wasmouse_core::guest_text::GuestStr;
+
 use crate::contest::matrix::ScoreMatrix;
 
 /// Which mazes a ranking or a comparison is about.
@@ -64,10 +66,16 @@ pub(super) struct Selection {
 
 impl Selection {
     /// The robots of a class, or all, in the mazes that all of them have played with every seed.
-    pub(super) fn new(matrix: &ScoreMatrix, filter: MazeFilter, class: Option<&str>) -> Self {
+    pub(super) fn new(
+        matrix: &ScoreMatrix,
+        filter: MazeFilter,
+        class: Option<GuestStr<'_>>,
+    ) -> Self {
         let robots = matrix.robots.iter().enumerate();
         let robots: Vec<usize> = robots
-            .filter(|(_, robot)| class.is_none() || robot.class.as_deref() == class)
+            .filter(|(_, robot)| {
+                class.is_none() || robot.class.as_ref().map(GuestStr::from) == class
+            })
             .map(|(index, _)| index)
             .collect();
         let count = robots.len();

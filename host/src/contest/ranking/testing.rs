@@ -95,7 +95,7 @@ impl Sketch {
         matrix.sets = sets.collect();
         for (index, maze) in self.mazes.iter().enumerate() {
             let index = matrix.push_maze(MatrixMaze {
-                name: format!("maze {index}"),
+                name: format!("maze {index}").into(),
                 digest: digest(format!("maze {index}")),
                 dimension: 12,
                 oracle: maze.is_reachable.then(|| rules.game.score(2, 3)),

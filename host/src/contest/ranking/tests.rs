@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use proptest::prelude::*;
+use wasmouse_core::GuestText;
 
 use super::testing::{Sketch, SketchMaze, failed, finished, name, sketches};
 use super::{MazeFilter, Ranking, RankingLine, RobotState};
@@ -24,7 +25,7 @@ fn rank(matrix: &ScoreMatrix, method: Method) -> Ranking {
 }
 
 /// The lines with the names of their robots instead of their places.
-fn by_name(ranking: &Ranking, matrix: &ScoreMatrix) -> Vec<(String, RankingLine)> {
+fn by_name(ranking: &Ranking, matrix: &ScoreMatrix) -> Vec<(GuestText, RankingLine)> {
     let lines = ranking.lines.iter();
     let named = |line: &RankingLine| {
         let name = matrix.robots[line.robot].name.clone();
@@ -178,7 +179,7 @@ proptest! {
         for method in METHODS {
             let (ranking, other) = (rank(&matrix, method), rank(&without, method));
             let lines = by_name(&ranking, &matrix);
-            let is_other = |it: &(String, RankingLine)| it.0 != name(0);
+            let is_other = |it: &(GuestText, RankingLine)| it.0 != *name(0);
             let rest: Vec<_> = lines.iter().filter(|it| is_other(it)).cloned().collect();
             prop_assert_eq!(rest, by_name(&other, &without));
             prop_assert_eq!(ranking.mazes, other.mazes);
@@ -278,8 +279,8 @@ fn sets_classes_and_unreachable_mazes_are_left_out() {
         cells: vec![failed(); 3],
     });
     let mut matrix = sketch.matrix();
-    matrix.robots[0].class = Some("small".to_owned());
-    matrix.robots[2].class = Some("small".to_owned());
+    matrix.robots[0].class = Some("small".into());
+    matrix.robots[2].class = Some("small".into());
     let scoring = Scoring::default();
     let all = Ranking::new(&matrix, &scoring, MazeFilter::All, None);
     assert_eq!(
@@ -289,7 +290,7 @@ fn sets_classes_and_unreachable_mazes_are_left_out() {
     assert!(!all.partial);
     let easy = Ranking::new(&matrix, &scoring, MazeFilter::Set(0), None);
     assert_eq!(ranks(&easy), [(0, Some(1)), (1, Some(2)), (2, Some(3))]);
-    let small = Ranking::new(&matrix, &scoring, MazeFilter::All, Some("small"));
+    let small = Ranking::new(&matrix, &scoring, MazeFilter::All, Some("small".into()));
     assert_eq!(ranks(&small), [(0, Some(1)), (2, Some(2))]);
     // One point in the easy maze, and half a point five times in the hard one.
     assert_eq!(small.lines[0].rank_points, Some(Mean::fraction(7, 2)));

@@ -61,7 +61,7 @@ pub fn robots_csv(report: &ContestReport<'_>) -> String {
             number(line.rank),
             text(view.name(robot)),
             text(view.author(robot).unwrap_or_default()),
-            text(entry.class.as_deref().unwrap_or_default()),
+            text(entry.class.as_ref().map(GuestStr::from).unwrap_or_default()),
             state(entry, line.state).unwrap_or("ranked").to_owned(),
             mean(line.value),
             line.matches.to_string(),

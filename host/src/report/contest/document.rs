@@ -2,8 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use wasmouse_core::Digest;
+use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::record::EngineId;
+use wasmouse_core::{Digest, GuestText};
 
 use super::picture::Pictures;
 use super::playable::Playable;
@@ -29,7 +30,7 @@ pub struct ReportOptions {
 #[derive(Clone, Debug)]
 pub struct PartRanking {
     /// The name of the set or the class.
-    pub name: String,
+    pub name: GuestText,
     /// The ranking.
     pub ranking: Ranking,
 }
@@ -99,7 +100,7 @@ impl<'a> ContestReport<'a> {
             .iter()
             .enumerate()
             .map(|(index, set)| PartRanking {
-                name: set.name.clone(),
+                name: set.name.as_str().into(),
                 ranking: rank(MazeFilter::Set(index), None),
             });
         let sets = if matrix.sets.len() > 1 {
@@ -107,13 +108,13 @@ impl<'a> ContestReport<'a> {
         } else {
             Vec::new()
         };
-        let classes: BTreeSet<&str> = matrix
+        let classes: BTreeSet<GuestStr<'_>> = matrix
             .robots
             .iter()
-            .filter_map(|it| it.class.as_deref())
+            .filter_map(|it| it.class.as_ref().map(GuestStr::from))
             .collect();
         let classes = classes.into_iter().map(|class| PartRanking {
-            name: class.to_owned(),
+            name: class.into(),
             ranking: rank(MazeFilter::All, Some(class)),
         });
         let ranked = overall.lines.iter().filter(|line| line.rank.is_some());

@@ -72,7 +72,7 @@ struct SetEntry<'a> {
 
 #[derive(Serialize)]
 struct MazeEntry<'a> {
-    name: &'a str,
+    name: &'a GuestText,
     set: &'a str,
     digest: Digest,
     dimension: u8,
@@ -83,7 +83,7 @@ struct MazeEntry<'a> {
 struct RobotEntry<'a> {
     name: GuestStr<'a>,
     author: Option<GuestStr<'a>>,
-    class: Option<&'a str>,
+    class: Option<GuestStr<'a>>,
     digest: Option<Digest>,
     variant: u32,
     state: &'static str,
@@ -95,9 +95,9 @@ struct RobotEntry<'a> {
 
 #[derive(Serialize)]
 struct Rejection<'a> {
-    kind: &'a str,
+    kind: GuestStr<'a>,
     reason: Option<GuestText>,
-    hint: &'a str,
+    hint: GuestStr<'a>,
 }
 
 #[derive(Serialize)]
@@ -109,8 +109,8 @@ struct FaultEntry<'a> {
 
 #[derive(Serialize)]
 struct RankingEntry<'a> {
-    set: Option<&'a str>,
-    class: Option<&'a str>,
+    set: Option<GuestStr<'a>>,
+    class: Option<GuestStr<'a>>,
     mazes: u64,
     mazes_total: u64,
     mazes_unreachable: u64,
@@ -250,7 +250,7 @@ fn robot<'a>(view: &'a View<'a>, robot: usize) -> RobotEntry<'a> {
     RobotEntry {
         name: view.name(robot),
         author: view.author(robot),
-        class: entry.class.as_deref(),
+        class: entry.class.as_ref().map(GuestStr::from),
         digest: view.digest(robot),
         variant: entry.variant,
         state: match view.line(robot).state {

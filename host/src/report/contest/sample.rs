@@ -61,8 +61,7 @@ impl Sample {
         let rules = Ruleset::default();
         let engine = EngineId::new("wasmtime-1");
         let names = ["flood", untrusted, "looper", "rejected", "unlucky"];
-        let robots =
-            names.map(|name| MatrixRobot::new(name.to_owned(), Digest::of(name.as_bytes()), 0));
+        let robots = names.map(|name| MatrixRobot::new(name, Digest::of(name.as_bytes()), 0));
         let mut matrix =
             ScoreMatrix::new(rules.clone(), Seeds { first: 7, count: 1 }, robots.into());
         matrix.sets = vec![
@@ -111,7 +110,7 @@ impl Sample {
             } else {
                 Digest::of(name.as_bytes())
             };
-            let name = name.to_owned();
+            let name = name.into();
             let maze = matrix.push_maze(MatrixMaze {
                 name,
                 digest,
@@ -145,12 +144,12 @@ impl Sample {
         self.matrix.robots[2]
             .faults
             .insert(FaultKind::Panic.name(), fault(1, hidden));
-        self.matrix.robots[1].author = Some(format!("Ann {untrusted}"));
-        self.matrix.robots[0].class = Some("small".to_owned());
-        self.matrix.robots[1].class = Some(format!("class {untrusted}"));
+        self.matrix.robots[1].author = Some(format!("Ann {untrusted}").into());
+        self.matrix.robots[0].class = Some("small".into());
+        self.matrix.robots[1].class = Some(format!("class {untrusted}").into());
         let reason = format!("too slow: {untrusted}");
         self.matrix.robots[2].unplayed.insert(reason.into(), 3);
-        let rejection = Rejection::UnknownImport(untrusted.to_owned());
+        let rejection = Rejection::UnknownImport(untrusted.into());
         self.matrix.robots[3].not_admitted = Some(NotAdmitted::Rejected(Arc::new(rejection)));
         let failed = NotAdmitted::Failed(format!("no process: {untrusted}").into());
         self.matrix.robots[4].not_admitted = Some(failed);

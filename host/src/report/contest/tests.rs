@@ -113,7 +113,7 @@ proptest! {
 #[test]
 fn what_is_hidden_is_in_no_format() {
     let mut sample = Sample::new("untrusted-text");
-    sample.matrix.robots[1].name = "robot-name".to_owned();
+    sample.matrix.robots[1].name = "robot-name".into();
     sample.matrix.robots[1].digest = Digest::of(b"a file that nothing else is made from");
     let hidden = ReportOptions {
         hide_names: true,

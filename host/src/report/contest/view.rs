@@ -32,9 +32,9 @@ pub(super) struct View<'a> {
 /// A table of ranks.
 pub(super) struct Part<'a> {
     /// The name of its set.
-    pub(super) set: Option<&'a str>,
+    pub(super) set: Option<GuestStr<'a>>,
     /// The name of its class.
-    pub(super) class: Option<&'a str>,
+    pub(super) class: Option<GuestStr<'a>>,
     pub(super) ranking: &'a Ranking,
     /// The lines that are shown.
     pub(super) lines: Vec<&'a RankingLine>,
@@ -48,7 +48,7 @@ pub(super) struct Unranked<'a> {
     /// Why, if that may be shown, and for how many matches.
     pub(super) reasons: Vec<(&'a GuestText, Option<u64>)>,
     /// The same of a rejection, which makes its texts itself.
-    pub(super) rejection: Option<(GuestText, &'a str)>,
+    pub(super) rejection: Option<(GuestText, GuestStr<'a>)>,
 }
 
 /// A kind of fault of a robot.
@@ -144,8 +144,8 @@ impl<'a> View<'a> {
     pub(super) fn parts(&self) -> Vec<Part<'a>> {
         let report = self.report;
         let overall = self.part(None, None, &report.overall);
-        let set = |it: &'a PartRanking| self.part(Some(&it.name), None, &it.ranking);
-        let class = |it: &'a PartRanking| self.part(None, Some(&it.name), &it.ranking);
+        let set = |it: &'a PartRanking| self.part(Some(it.name.as_guest()), None, &it.ranking);
+        let class = |it: &'a PartRanking| self.part(None, Some(it.name.as_guest()), &it.ranking);
         let sets = report.sets.iter().map(set);
         let classes = report.classes.iter().map(class);
         std::iter::once(overall)
@@ -154,7 +154,12 @@ impl<'a> View<'a> {
             .collect()
     }
 
-    fn part(&self, set: Option<&'a str>, class: Option<&'a str>, ranking: &'a Ranking) -> Part<'a> {
+    fn part(
+        &self,
+        set: Option<GuestStr<'a>>,
+        class: Option<GuestStr<'a>>,
+        ranking: &'a Ranking,
+    ) -> Part<'a> {
         let lines = ranking.lines.iter();
         Part {
             set,
@@ -305,7 +310,7 @@ fn shown(report: &ContestReport<'_>) -> Vec<bool> {
 fn names(matrix: &ScoreMatrix, are_hidden: bool) -> Vec<GuestText> {
     let robots = matrix.robots.iter();
     if !are_hidden {
-        return robots.map(|robot| robot.name.as_str().into()).collect();
+        return robots.map(|robot| robot.name.clone()).collect();
     }
     let mut seen: HashMap<String, u32> = HashMap::new();
     let alias = |robot: &MatrixRobot| {

@@ -76,11 +76,11 @@ pub(super) fn fuel(rules: &Ruleset) -> String {
 }
 
 /// What a ranking is about: `Overall`, `Set hidden`, `Class small`.
-pub(super) fn part_title(part: &Part<'_>) -> String {
+pub(super) fn part_title(part: &Part<'_>) -> GuestText {
     match (part.set, part.class) {
-        (Some(set), _) => format!("Set {set}"),
-        (_, Some(class)) => format!("Class {class}"),
-        _ => "Overall".to_owned(),
+        (Some(set), _) => guest_text!("Set {}", set),
+        (_, Some(class)) => guest_text!("Class {}", class),
+        _ => "Overall".into(),
     }
 }
 
@@ -154,7 +154,7 @@ pub(super) fn missing(view: &View<'_>) -> Option<String> {
 pub(super) fn unranked(unranked: &Unranked<'_>) -> GuestText {
     let mut text = GuestText::from(unranked.state);
     if let Some((reason, hint)) = &unranked.rejection {
-        text.push(&guest_text!(": {} (hint: {})", reason, hint));
+        text.push(&guest_text!(": {} (hint: {})", reason, *hint));
     }
     for (index, (reason, count_of)) in unranked.reasons.iter().enumerate() {
         text.push(if index == 0 { ": " } else { "; " });

@@ -51,7 +51,7 @@ struct RobotEntry<'a> {
     variant: u32,
     participation: &'static str,
     reason: Option<&'a GuestText>,
-    hint: Option<&'a str>,
+    hint: Option<&'a GuestText>,
     complete: bool,
     passed: bool,
     points_thousandths: u64,

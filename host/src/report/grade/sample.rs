@@ -96,9 +96,9 @@ impl Sample {
         ];
         let rejected = vec![result(Status::Failed, 0, None, Some(HOSTILE)); 4];
         let rejection = Participation::Rejected {
-            kind: "unknown-import".to_owned(),
+            kind: "unknown-import".into(),
             reason: HOSTILE.into(),
-            hint: "build it without".to_owned(),
+            hint: "build it without".into(),
         };
         Self {
             rubric: Rubric {

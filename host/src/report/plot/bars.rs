@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use plotters::style::text_anchor::HPos;
+use wasmouse_core::GuestText;
 
 use super::area::Drawn;
 use super::canvas::{Axes, Canvas, Chart, Head, Key, document, pixel};
@@ -54,7 +55,7 @@ impl Measure {
 
 /// Mazes that share bars.
 struct Group {
-    name: String,
+    name: GuestText,
     mazes: Vec<usize>,
 }
 
@@ -176,7 +177,7 @@ fn groups(matrix: &ScoreMatrix) -> Vec<Group> {
     let groups = sizes.into_iter().map(|size| {
         let mazes = 0..matrix.mazes.len();
         Group {
-            name: size.to_string(),
+            name: size.to_string().into(),
             mazes: mazes
                 .filter(|&it| matrix.mazes[it].dimension == size)
                 .collect(),

@@ -5,6 +5,7 @@ use std::ops::Range;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+use wasmouse_core::guest_text::GuestStr;
 
 use super::area::{Area, Drawn};
 use super::error::PlotError;
@@ -39,7 +40,7 @@ pub(super) struct Head<'a> {
     /// In smaller letters: what is shown, in a sentence.
     pub(super) note: String,
     /// The names of the robots in the order of their looks.
-    pub(super) names: Vec<&'a str>,
+    pub(super) names: Vec<GuestStr<'a>>,
     /// Robots that are not shown.
     pub(super) more: usize,
     /// How robots are drawn.
@@ -230,7 +231,13 @@ impl<'a> Canvas<'a> {
     }
 
     /// Text in pixels of the canvas, around or beside a place, cut to a width.
-    pub(super) fn label(&self, content: &str, at: (i32, i32), width: i32, anchor: HPos) -> Drawn {
+    pub(super) fn label<'t>(
+        &self,
+        content: impl Into<GuestStr<'t>>,
+        at: (i32, i32),
+        width: i32,
+        anchor: HPos,
+    ) -> Drawn {
         let shown = cut(&replace_hostile(content), hundredths(width, TEXT));
         text(&self.root, &shown, at, TEXT, self.colors.quiet, anchor)
     }

@@ -1,6 +1,7 @@
 //! What plots take from a matrix: robots in the order of the ranking, and their finished matches.
 
 use wasmouse_core::game::Score;
+use wasmouse_core::guest_text::GuestStr;
 
 use super::error::PlotError;
 use super::look::LOOKS;
@@ -46,10 +47,10 @@ impl<'a> Robots<'a> {
         Ok(robots)
     }
 
-    pub(super) fn names(&self) -> Vec<&'a str> {
+    pub(super) fn names(&self) -> Vec<GuestStr<'a>> {
         let shown = self.shown.iter();
         shown
-            .map(|&it| self.matrix.robots[it].name.as_str())
+            .map(|&it| self.matrix.robots[it].name.as_guest())
             .collect()
     }
 

@@ -57,9 +57,9 @@ fn names_are_text_and_many_robots_are_counted() {
     let long = "x".repeat(10_000);
     let names = ["</text><script>\u{1b}[31m\u{202e}", "\"&'<!--", &long];
     for (robot, name) in hostile.robots.iter_mut().zip(names) {
-        name.clone_into(&mut robot.name);
+        robot.name = name.into();
     }
-    hostile.mazes[0].name = "]]><image href='x'/>\u{0}".to_owned();
+    hostile.mazes[0].name = "]]><image href='x'/>\u{0}".into();
     for kind in KINDS {
         let svg = plot(kind, &hostile);
         assert!(!svg.contains("<script") && !svg.contains("<image") && !svg.contains("<!--"));

@@ -21,7 +21,7 @@ fn contest() -> Contest {
 fn submissions(contest: &Contest) -> Vec<Submission> {
     let players = contest.players.iter().enumerate();
     let submissions = players.map(|(place, &(robot, variant))| Submission {
-        name: format!("robot {place}"),
+        name: format!("robot {place}").into(),
         author: None,
         class: None,
         robot,
@@ -328,7 +328,7 @@ fn unplayed_matches_and_histories_merge() {
     let (_left, mut left) = store_with(&[1], &[failure(2, "b"), failure(3, "b")]);
     let (_right, mut right) = store_with(&[2], &[failure(1, "a"), failure(3, "a")]);
     let [old, new] = [0, 1].map(|number| Submission {
-        name: "a".to_owned(),
+        name: "a".into(),
         ..submissions(&contest)[number].clone()
     });
     left.submit(&[old.clone(), new.clone(), old.clone()])

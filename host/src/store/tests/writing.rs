@@ -14,7 +14,7 @@ fn a_record_that_differs_is_kept_and_ends_the_contest() {
     let (_folder, mut store) = new_store();
     contest.store(&mut store, KeptTranscripts::All, |_, _, _| true);
     let name = Submission {
-        name: "flood".to_owned(),
+        name: "flood".into(),
         author: None,
         class: None,
         robot: contest.players[1].0,
@@ -125,15 +125,15 @@ fn the_best_match_does_not_depend_on_the_order() {
 
 fn submission(name: &str, number: u32) -> Submission {
     Submission {
-        name: name.to_owned(),
-        author: (number > 1).then(|| "an \u{1b} author".to_owned()),
-        class: (number > 2).then(|| "light".to_owned()),
+        name: name.into(),
+        author: (number > 1).then(|| "an \u{1b} author".into()),
+        class: (number > 2).then(|| "light".into()),
         robot: robot(number),
         variant: number,
         rejection: (number > 3).then(|| RejectionEntry {
-            kind: "too-large".to_owned(),
+            kind: "too-large".into(),
             reason: "a reason".into(),
-            hint: "a hint".to_owned(),
+            hint: "a hint".into(),
         }),
     }
 }

@@ -6,6 +6,7 @@ use std::sync::atomic::AtomicBool;
 use std::thread;
 
 use wasmouse::contest::{Entrant, MazeSource, Options, Plan, RecordList, Seeds, Sink, run};
+use wasmouse_core::GuestText;
 use wasmouse_core::game::Ruleset;
 use wasmouse_core::maze::generate::{GENERATED_DIMENSIONS, GenSpec, Kind};
 use wasmouse_core::maze::{Maze, goal_entrances};
@@ -49,17 +50,18 @@ impl Host {
                 .admit(robot.component)
                 .map_err(|it| it.to_string())?;
             let admitted = Arc::new(admission.map_err(|it| format!("`{}`: {it}", robot.name))?);
-            let entrant = |name: String, variant| Entrant {
+            let entrant = |name: GuestText, variant| Entrant {
                 name,
                 digest: *admitted.digest(),
                 variant,
                 admission: Ok(Arc::clone(&admitted)),
             };
             if robot.variants.is_empty() {
-                entrants.push(entrant(robot.name.to_owned(), 0));
+                entrants.push(entrant(robot.name.into(), 0));
             }
             let variants = robot.variants.iter();
-            let variants = variants.map(|it| (format!("{}:{}", robot.name, it.name), it.value));
+            let variants =
+                variants.map(|it| (format!("{}:{}", robot.name, it.name).into(), it.value));
             entrants.extend(variants.map(|(name, value)| entrant(name, value)));
         }
         let has_name = |robot: &str, name: &str| {
@@ -67,11 +69,13 @@ impl Host {
             rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(':'))
         };
         for name in names {
-            if !entrants.iter().any(|it| has_name(&it.name, name)) {
+            if !entrants.iter().any(|it| has_name(it.name.raw(), name)) {
                 return Err(format!("no bundled robot is called `{name}`"));
             }
         }
-        entrants.retain(|it| names.is_empty() || names.iter().any(|name| has_name(&it.name, name)));
+        entrants.retain(|it| {
+            names.is_empty() || names.iter().any(|name| has_name(it.name.raw(), name))
+        });
         Ok(Self {
             executor,
             jobs,
@@ -202,7 +206,7 @@ impl Host {
     }
 }
 
-fn loaded(name: impl Into<String>, maze: Maze) -> MazeSource {
+fn loaded(name: impl Into<GuestText>, maze: Maze) -> MazeSource {
     MazeSource::Loaded {
         name: name.into(),
         maze: Arc::new(maze),

@@ -104,7 +104,7 @@ impl Page {
             let records = self.records(index);
             let scores = records.map(|it| it?.verdict.score().map(Mean::from));
             let cells = records.map(|it| it.map_or_else(absent, verdict));
-            row(code(&entrant.name), cells, scores);
+            row(code(entrant.name.escaped()), cells, scores);
         }
         for scores in BEST_OTHERS {
             let scores = scores.map(|it| Some(Mean::fraction(it.into(), 1000)));
@@ -173,7 +173,7 @@ impl Page {
             Counts::sum(sizes)
         };
         let robots = self.entrants.iter().enumerate();
-        let robots = robots.map(|(robot, it)| (robot, code(&it.name), counts(robot)));
+        let robots = robots.map(|(robot, it)| (robot, code(it.name.escaped()), counts(robot)));
         let mut ranked: Vec<_> = robots.collect();
         ranked.sort_by_key(|(_, _, Counts { tally, .. })| {
             (
@@ -238,7 +238,7 @@ impl Page {
                 .chain([&all])
                 .map(|it| it.tally.step_fuel_mean());
             let cells = means.chain([all.tally.step_fuel_max]).map(grouped);
-            table.row(once(code(&entrant.name)).chain(cells));
+            table.row(once(code(entrant.name.escaped())).chain(cells));
         }
         table.finish()
     }
@@ -253,13 +253,13 @@ impl Page {
         let mut table = Table::new(["robot", "unfinished mazes"], 2);
         for (robot, entrant) in self.entrants.iter().enumerate() {
             let names = sets.iter().flat_map(|set| &set.robots[robot].unfinished);
-            let names: Vec<String> = names.map(code).collect();
+            let names: Vec<String> = names.map(|it| code(it.escaped())).collect();
             let cell = match names.len() {
                 0 => continue,
                 1..=UNFINISHED_MAX => names.join(", "),
                 many => many.to_string(),
             };
-            table.row([code(&entrant.name), cell]);
+            table.row([code(entrant.name.escaped()), cell]);
         }
         Some(text + &table.finish())
     }
@@ -268,7 +268,7 @@ impl Page {
     fn identity(&self) -> String {
         let mut mazes = Table::new(["mazes", "digest", "count"], 2);
         for OfficialMaze { maze, .. } in self.official.iter().flatten() {
-            mazes.row([code(&maze.name), code(maze.digest), "1".to_owned()]);
+            mazes.row([code(maze.name.escaped()), code(maze.digest), "1".to_owned()]);
         }
         let generated = self.generated.iter().map(|(_, set)| (code(&set.name), set));
         let competition = self.competition.iter().flat_map(|(sets, _)| sets);

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::io;
 
 use wasmouse::contest::{ContestMatch, ContestMaze, MatchFailure, Mean, Sink, Tally};
-use wasmouse_core::Digest;
 use wasmouse_core::game::Verdict;
 use wasmouse_core::journal::JournalCounts;
 use wasmouse_core::record::MatchRecord;
+use wasmouse_core::{Digest, GuestText};
 
 use crate::published::{BENCHMARK_SCALE, BENCHMARKS};
 
@@ -67,7 +67,7 @@ pub struct RobotCounts {
     /// Matches in which the robot wrote nothing to its journal.
     pub silent: Counts,
     /// The names of the mazes that it did not finish.
-    pub unfinished: Vec<String>,
+    pub unfinished: Vec<GuestText>,
 }
 
 impl RobotCounts {

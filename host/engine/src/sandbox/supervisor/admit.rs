@@ -217,7 +217,7 @@ impl Admitter<'_> {
             // A worker that has run nothing else was ended by this code.
             if tries > 1 && exit.is_crash() && !exit.is_out_of_memory() {
                 let reason = format!("makes code that crashes the worker that loads it ({exit})");
-                return Ok(Attempt::Rejected(Rejection::Uncompilable(reason)));
+                return Ok(Attempt::Rejected(Rejection::Uncompilable(reason.into())));
             }
             if tries == TRIES || (tries > 1 && !exit.is_kill()) {
                 return Err(InfrastructureError::Worker {

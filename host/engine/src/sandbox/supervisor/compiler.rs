@@ -194,5 +194,5 @@ fn rejection(exit: &WorkerExit) -> Result<Rejection, InfrastructureError> {
             reason: exit.to_string(),
         });
     };
-    Ok(Rejection::Uncompilable(reason))
+    Ok(Rejection::Uncompilable(reason.into()))
 }

@@ -49,7 +49,7 @@ struct Index<'a> {
     rules: [u32; 4],
     robots: Vec<GuestStr<'a>>,
     /// The name, and the length of the identity bytes.
-    mazes: Vec<(&'a str, usize)>,
+    mazes: Vec<(GuestStr<'a>, usize)>,
     /// In decimal, because they can be larger than the numbers of a script.
     seeds: Vec<String>,
     /// The indices of robot, maze and seed, and the length of the transcript.
@@ -77,7 +77,7 @@ impl Player {
         let maze = |(&index, _): (&usize, &usize)| {
             let identity = playable.maze(index);
             bytes.extend_from_slice(identity);
-            (view.maze(index).name.as_str(), identity.len())
+            (view.maze(index).name.as_guest(), identity.len())
         };
         let maze_entries = mazes.iter().map(maze).collect();
         let robot_positions: BTreeMap<usize, usize> =

@@ -1,6 +1,7 @@
 //! The rankings, and what kept robots from being ranked.
 
 use maud::{Markup, html};
+use wasmouse_core::guest_text::GuestStr;
 
 use super::parts::{caption, label, playable, shown};
 use super::player::Player;
@@ -62,7 +63,7 @@ fn row(view: &View<'_>, player: Option<&Player>, line: &RankingLine, has_classes
                     " " span.quiet { "by " (shown(author)) }
                 }
             }
-            @if has_classes { td.name { (label(robot.class.as_deref().unwrap_or(words::NONE))) } }
+            @if has_classes { td.name { (label(robot.class.as_ref().map_or(words::NONE.into(), GuestStr::from))) } }
             td.value { (mean(line.value)) }
             td data-value=(share(line.finish_rate)) {
                 (line.finished) "/" (line.matches) small { (percent(line.finish_rate)) }
