@@ -271,7 +271,8 @@ impl Function<'_, '_> {
             Construct::Block => self.depth.block(),
             Construct::Loop => {
                 self.depth.repeat();
-                self.sizes.heavy += 1;
+                // Two checks: fuel and epoch.
+                self.sizes.heavy += 2;
             }
             Construct::If => self.depth.condition(),
         }
