@@ -47,10 +47,17 @@ pub fn play(
     };
     let played = contest::run(plan, executor, &options, sink);
     bar.finish_and_clear();
-    played.map_err(|error| match &error {
-        RunError::Thread(_) => Failure::internal(error).hint("try fewer threads with --jobs"),
+    played.map_err(|error| failure(&error))
+}
+
+/// The failure of a contest that did not come to its end.
+pub fn failure(error: &RunError) -> Failure {
+    match error {
+        RunError::Thread(_) => {
+            Failure::internal(error).hint("raise the limits of this process on memory and threads")
+        }
         RunError::Sink(_) => Failure::internal(error),
-    })
+    }
 }
 
 /// Plays all matches of a plan.
