@@ -4,11 +4,12 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressStyle;
 use wasmouse_core::GuestText;
 use wasmouse_core::playback::Playback;
 use wasmouse_core::replay::Replay;
 
+use super::bar;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::image_file::{self, Format};
@@ -449,7 +450,8 @@ fn animate(
     // Before there is a file that a signal could leave behind.
     let interrupted = interrupt::listen()?;
     let mut draft = Draft::create(&args.output, Existing::from_flag(args.force))?;
-    let bar = ProgressBar::new(film.len() as u64).with_style(
+    let bar = bar::new(
+        film.len() as u64,
         ProgressStyle::with_template("{bar:40} {pos}/{len} frames, {eta} left")
             .expect("a constant template"),
     );

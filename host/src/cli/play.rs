@@ -2,7 +2,6 @@
 
 use std::time::Duration;
 
-use indicatif::ProgressBar;
 use wasmouse_core::record::MatchKey;
 use wasmouse_engine::Executor;
 
@@ -34,7 +33,7 @@ pub fn play(
     sink: &mut dyn Sink,
 ) -> Result<(), Failure> {
     let cancelled = interrupt::listen()?.as_atomic();
-    let bar = ProgressBar::new(total).with_style(bar::matches(""));
+    let bar = bar::new(total, bar::matches(""));
     let options = Options {
         jobs: pace.jobs,
         cancelled,

@@ -59,7 +59,7 @@ impl Progress {
     /// The progress of a contest of which `before` has been played, with `total` matches left.
     pub fn new(before: &ScoreMatrix, scoring: &Scoring, total: u64) -> Self {
         let is_terminal = stderr().is_terminal();
-        let bar = ProgressBar::new(total).with_style(bar::matches("\n{msg}"));
+        let bar = bar::new(total, bar::matches("\n{msg}"));
         let game = &before.rules.game;
         let mut progress = Self {
             bar,
