@@ -17,6 +17,7 @@ use super::interrupt;
 use super::output::{self, Draft, Existing, message};
 use super::replays::SourceArgs;
 use crate::report::animation::{self, AnimationError, Frames, Timing};
+use crate::report::number::counted;
 use crate::report::picture::{Sheet, Theme};
 use crate::report::scene::{
     Film, Overlay, Overlays, POSTER_MAX, SEQUENCE_MAX, Shot, best_of_mazes, poster, sequence,
@@ -480,7 +481,7 @@ fn animate(
                 .flush()
                 .map_err(|error| output::failure(&args.output, &error))?;
             draft.commit()?;
-            message!("wrote {} ({} frames)", path, film.len());
+            message!("wrote {} ({})", path, counted(film.len(), "frame"));
             Ok(Exit::Success)
         }
         Err(AnimationError::Cancelled) => {

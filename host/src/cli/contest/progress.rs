@@ -18,6 +18,7 @@ use super::super::bar;
 use super::super::output::message;
 use crate::contest::{Ended, MatchScore, Mean, Outcome, ScoreMatrix, Scoring};
 use crate::report::escape::for_terminal;
+use crate::report::number::counted;
 
 /// Robots that are shown.
 const SHOWN_MAX: usize = 3;
@@ -147,9 +148,9 @@ impl Progress {
             let left = (self.total - state.ended.min(self.total)) as f64;
             let left = (left * seconds / state.ended as f64).ceil() as u64;
             message!(
-                "{} of {} matches, {} s left; {}",
+                "{} of {}, {} s left; {}",
                 state.ended,
-                self.total,
+                counted(self.total, "match"),
                 left,
                 line
             );
@@ -173,7 +174,7 @@ impl Progress {
             write!(line, "{separator}{place}. {name} {mean}").expect("a string takes any text");
         }
         let (faults, unplayed) = (state.faults, state.unplayed);
-        write!(line, "; {faults} faults").expect("a string takes any text");
+        write!(line, "; {}", counted(faults, "fault")).expect("a string takes any text");
         if unplayed > 0 {
             write!(line, "; {unplayed} not played").expect("a string takes any text");
         }

@@ -26,6 +26,7 @@ use crate::contest::{
     self, ContestMatch, Entrant, KeepTranscripts, NotAdmitted, Options, Plan, RejectionEntry,
     RunError, ScoreMatrix, Sink,
 };
+use crate::report::number::counted;
 use crate::report::text::Text;
 use crate::store::{KeptTranscripts, Store, StoreError, StoreSink, Submission};
 
@@ -130,10 +131,10 @@ impl Args {
             // The reports say so otherwise.
             print_unplayed(&matrix);
             message!(
-                "{} of {} matches are in {}; `wasmouse contest merge` joins the parts",
+                "{} has {} of {}; `wasmouse contest merge` joins the parts",
+                Text::of_path(&path),
                 matrix.played(),
-                contest.matches(&matrix),
-                Text::of_path(&path)
+                counted(contest.matches(&matrix), "match")
             );
         }
         Ok(if interrupt::flag().is_set() {
