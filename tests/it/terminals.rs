@@ -18,6 +18,7 @@ use std::time::{Duration, Instant};
 use wasmouse_core::maze::{format, is_contest_legal};
 
 use crate::binary::path;
+use crate::contest_text::ContestText;
 
 /// A program on a terminal of its own.
 struct Session {
@@ -266,15 +267,9 @@ fn folder() -> tempfile::TempDir {
 #[test]
 fn a_contest_shows_its_progress_and_standings() {
     let folder = folder();
-    let text = "
-version = 1
-[[robots]]
-bundled = \"flood\"
-[[mazes]]
-set = \"all\"
-paths = [\"gen:tree:16:1..=100000\"]
-";
-    fs::write(folder.path().join("contest.toml"), text).expect("a file");
+    ContestText::of(&["flood"])
+        .mazes("all", &["gen:tree:16:1..=100000"])
+        .write(folder.path());
     let mut session = Session::start(folder.path(), &["contest", "run"]);
     session.wait_for("/100000 matches, ");
     session.wait_for("now 1. flood:reset ");
@@ -297,15 +292,9 @@ paths = [\"gen:tree:16:1..=100000\"]
 #[test]
 fn nothing_is_left_of_a_bar_after_an_interrupt() {
     let folder = folder();
-    let text = "
-version = 1
-[[robots]]
-bundled = \"flood\"
-[[mazes]]
-set = \"all\"
-paths = [\"gen:tree:16:1..=100000\"]
-";
-    fs::write(folder.path().join("contest.toml"), text).expect("a file");
+    ContestText::of(&["flood"])
+        .mazes("all", &["gen:tree:16:1..=100000"])
+        .write(folder.path());
     let run = ["run", "flood", "gen:tree:16:1..=100000"];
     for (arguments, drawn) in [
         (&run[..], "/100000 matches, "),
