@@ -265,7 +265,7 @@ fn a_part_that_contradicts_the_contest_is_refused_with_its_matches() {
     let ran = ran(&mut contest(folder.path(), &merge));
     assert_eq!(ran.status.code(), Some(1), "{}", ran.stderr);
     for expected in [
-        "store `other.db`: 1 of its records contradict those of `contest.db`",
+        "store `other.db`: it has records that contradict those of `contest.db`: 1, the first: ",
         "seed 1",
     ] {
         assert!(ran.stderr.contains(expected), "{}", ran.stderr);
@@ -350,7 +350,7 @@ paths = [\"gen:tree:12:1..=10\"]
         .filter(|line| line.starts_with("  bob: ") && line.contains("variant"));
     assert_eq!(of_bob.count(), 2, "{status}");
     assert!(
-        status.contains("24 of 24 matches were played, 0 are left"),
+        status.contains("24 of 24 matches played, 0 left to play"),
         "{status}"
     );
 }
@@ -369,7 +369,7 @@ fn a_contest_that_is_interrupted_keeps_what_was_played() {
     let code = child.wait().expect("a process").code();
     if code == Some(130) {
         let status = stdout_of(&mut contest(folder.path(), &["status", "--check"]));
-        assert!(!status.contains(", 0 are left to play"), "{status}");
+        assert!(!status.contains(", 0 left to play"), "{status}");
     } else {
         assert_eq!(code, Some(0), "it had ended already");
     }

@@ -28,6 +28,7 @@ mod contest;
 mod contest_file;
 /// Reports of contests: snapshots, the JSON against its schema, the web page against a validator.
 mod contest_report;
+mod contest_text;
 /// The core: few dependencies, and compiled for WebAssembly.
 mod core_crate;
 /// The hostile corpus, in this process.

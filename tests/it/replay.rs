@@ -16,6 +16,7 @@ use wasmouse_core::replay::Replay;
 use wasmouse_tests::binary::{Ran, ran, wasmouse};
 use wasmouse_tests::module::{IMPORT_LOG, Module};
 
+use crate::contest_text::ContestText;
 use crate::shared::shared;
 
 fn run(folder: &Path, arguments: &[&str]) -> Ran {
@@ -111,19 +112,10 @@ fn a_run_keeps_replays_that_are_listed_and_audited() {
 fn a_contest_has_the_replays_that_it_keeps() {
     let folder = TempDir::new().expect("a folder");
     let folder = folder.path();
-    let contest = r#"
-        version = 1
-        [[robots]]
-        bundled = "flood"
-        [[robots]]
-        bundled = "dfs"
-        [[mazes]]
-        set = "all"
-        paths = ["test_maze_01", "gen:tree:12:1..=2"]
-        [run]
-        keep_transcripts = "all"
-    "#;
-    fs::write(folder.join("contest.toml"), contest).expect("a file");
+    ContestText::of(&["flood", "dfs"])
+        .mazes("all", &["test_maze_01", "gen:tree:12:1..=2"])
+        .with("[run]\nkeep_transcripts = \"all\"")
+        .write(folder);
     succeeds(folder, &["contest", "run"]);
     let listed = succeeds(folder, &["replay", "contest.db", "--list", "--ascii"]);
     check("contest-list", &listed.stdout);

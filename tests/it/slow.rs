@@ -108,8 +108,8 @@ fn a_robot_without_time_is_withdrawn() {
         let ran = contest(folder.path(), &["chaser.wasm", "--robot-time=2", mode]);
         let found = results(&ran);
         assert_eq!(ran.status.code(), Some(5), "{mode}: {}", ran.stderr);
-        let expected = "withdrawn `chaser`: it has used up its 2 s of processor time; 10 of its \
-                        matches were not played\n";
+        let expected = "withdrawn `chaser`: it has used up its 2 s of processor time; 10 matches \
+                        were not played\n";
         assert!(ran.stderr.contains(expected), "{mode}: {}", ran.stderr);
         check_others(&alone, &found);
         assert_eq!(found.summary.failures, []);

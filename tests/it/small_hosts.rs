@@ -47,6 +47,8 @@ fn write_robots(folder: &Path) -> Vec<PathBuf> {
 /// A contest of these robots after a shell has set limits.
 fn contest(limits: &str, robots: &[PathBuf], options: &[&str]) -> Command {
     let mut command = Command::new("sh");
+    // When memory runs out while it prints a backtrace, the standard library waits for ever.
+    command.env("RUST_BACKTRACE", "0");
     command.args(["-c", &format!("{limits} exec \"$@\""), "sh"]);
     command.arg(binary::path());
     command.args(["run", "--json", "--no-cache", "--maze=test_maze_01"]);
@@ -80,14 +82,19 @@ fn outcomes(document: &Value) -> Outcomes {
 #[track_caller]
 fn check(limits: &[String], options: &[&str]) -> usize {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let robots = write_robots(folder.path());
-    let undisturbed = ran(&mut contest("", &robots, options));
+    check_robots(&write_robots(folder.path()), limits, options)
+}
+
+#[track_caller]
+fn check_robots(robots: &[PathBuf], limits: &[String], options: &[&str]) -> usize {
+    let undisturbed = ran(&mut contest("", robots, options));
     let expected = outcomes(&serde_json::from_str(&undisturbed.stdout).expect("a document"));
     let mut played = 0;
     for limit in limits {
-        let ran = ran(&mut contest(&format!("{limit};"), &robots, options));
+        let ran = ran(&mut contest(&format!("{limit};"), robots, options));
         let status = ran.status.code();
         let place = format!("{limit} {options:?}: {status:?}");
+        assert_ne!(status, Some(101), "{place}\n{}", ran.stderr);
         // With very little memory, the program cannot even begin, and a signal ends it.
         if ran.stdout.is_empty() {
             assert_ne!(status, Some(0), "{place}\n{}", ran.stderr);
@@ -136,14 +143,22 @@ fn few_descriptors_change_no_result() {
 #[test]
 fn little_memory_changes_no_result() {
     let mut all = limits('d', (4..=18).map(|power| 1 << power));
-    all.extend(
-        (17..=40)
-            .step_by(2)
-            .map(|power| format!("ulimit -v {}", 1_u64 << power)),
-    );
+    all.extend(limits('v', (17..=40).step_by(2).map(|power| 1 << power)));
     let workers = check(&all, &["--jobs=2"]);
     let trusted = check(&all, &["--jobs=2", "--trust"]);
     assert!(workers > 0 && trusted > 0, "{workers} {trusted}");
+}
+
+/// Address space for the program and for some of its threads: a document is complete, or nothing of
+/// it is printed.
+#[test]
+fn too_few_threads_leave_no_part_of_a_document() {
+    let robots = ["flood", "random"].map(PathBuf::from);
+    // In KiB; without a limit, the trusted robots have address space for their memories, too.
+    let mut all = limits('v', (128_000..=140_000).step_by(250));
+    all.push(String::from("ulimit -v unlimited"));
+    let played = check_robots(&robots, &all, &["--jobs=8", "--trust"]);
+    assert!(played >= robots.len(), "{played}");
 }
 
 /// Sixty-four jobs on however many cores there are, and eight jobs on one.

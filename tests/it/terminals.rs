@@ -18,6 +18,7 @@ use std::time::{Duration, Instant};
 use wasmouse_core::maze::{format, is_contest_legal};
 
 use crate::binary::path;
+use crate::contest_text::ContestText;
 
 /// A program on a terminal of its own.
 struct Session {
@@ -43,12 +44,17 @@ const ENTER: &str = "\u{1b}[?1049h";
 
 impl Session {
     fn start(folder: &Path, arguments: &[&str]) -> Self {
-        Self::start_with(folder, arguments, libc::SIG_DFL)
+        Self::start_with(folder, arguments, (libc::SIG_DFL, 80))
     }
 
-    /// Starts a program with that action for the signal of a closed terminal.
-    fn start_with(folder: &Path, arguments: &[&str], hangup: libc::sighandler_t) -> Self {
-        let (person, terminal) = pseudo_terminal();
+    /// Starts a program with that action for the signal of a closed terminal, on a terminal with
+    /// that many columns.
+    fn start_with(
+        folder: &Path,
+        arguments: &[&str],
+        (hangup, columns): (libc::sighandler_t, u16),
+    ) -> Self {
+        let (person, terminal) = pseudo_terminal(columns);
         let stdio = || Stdio::from(terminal.try_clone().expect("a descriptor"));
         let mut command = Command::new(path());
         command
@@ -74,7 +80,7 @@ impl Session {
         let child = command.spawn().expect("the program starts");
         let shown = Arc::new(Mutex::new(Shown {
             written: Vec::new(),
-            terminal: vt100::Parser::new(24, 80, 0),
+            terminal: vt100::Parser::new(24, columns, 0),
         }));
         let mut reader = person.try_clone().expect("a descriptor");
         let sink = Arc::clone(&shown);
@@ -217,14 +223,14 @@ impl Session {
     }
 }
 
-/// Both sides of a new terminal of 80 x 24. No other process gets them by accident: a terminal is
+/// Both sides of a new terminal with that many columns and 24 rows. No other process gets them by accident: a terminal is
 /// only closed when nobody has the side of the person.
-fn pseudo_terminal() -> (File, OwnedFd) {
+fn pseudo_terminal(columns: u16) -> (File, OwnedFd) {
     // SAFETY: the call takes numbers.
     let person = unsafe { libc::posix_openpt(libc::O_RDWR | libc::O_NOCTTY | libc::O_CLOEXEC) };
     assert!(person >= 0, "there are pseudo terminals");
     let mut name = [0; 128];
-    let size = window(80, 24);
+    let size = window(columns, 24);
     // SAFETY: the descriptor is open, and the pointers are to a name with its length and to a size.
     let prepared = unsafe {
         libc::grantpt(person) == 0
@@ -261,15 +267,9 @@ fn folder() -> tempfile::TempDir {
 #[test]
 fn a_contest_shows_its_progress_and_standings() {
     let folder = folder();
-    let text = "
-version = 1
-[[robots]]
-bundled = \"flood\"
-[[mazes]]
-set = \"all\"
-paths = [\"gen:tree:16:1..=100000\"]
-";
-    fs::write(folder.path().join("contest.toml"), text).expect("a file");
+    ContestText::of(&["flood"])
+        .mazes("all", &["gen:tree:16:1..=100000"])
+        .write(folder.path());
     let mut session = Session::start(folder.path(), &["contest", "run"]);
     session.wait_for("/100000 matches, ");
     session.wait_for("now 1. flood:reset ");
@@ -286,6 +286,34 @@ paths = [\"gen:tree:16:1..=100000\"]
         let written = session.written();
         written.contains("interrupted; `wasmouse contest run` goes on where this ended")
     });
+}
+
+/// The terminal shows `^C` where the cursor is, which must not move it to a line of its own.
+#[test]
+fn nothing_is_left_of_a_bar_after_an_interrupt() {
+    let folder = folder();
+    ContestText::of(&["flood"])
+        .mazes("all", &["gen:tree:16:1..=100000"])
+        .write(folder.path());
+    let run = ["run", "flood", "gen:tree:16:1..=100000"];
+    for (arguments, drawn) in [
+        (&run[..], "/100000 matches, "),
+        (&["contest", "run"], "now 1. "),
+    ] {
+        for columns in [80, 120] {
+            let place = format!("{arguments:?} at {columns}");
+            let terminal = (libc::SIG_DFL, columns);
+            let mut session = Session::start_with(folder.path(), arguments, terminal);
+            session.wait_for(drawn);
+            session.press("\u{3}");
+            assert_eq!(session.exit_code(), Some(130), "{place}");
+            session.wait(|session| session.screen().contains("interrupted"));
+            let screen = session.screen();
+            for part in ["/s, ", "now 1. ", "^C"] {
+                assert!(!screen.contains(part), "{place}: {part}\n{screen}");
+            }
+        }
+    }
 }
 
 const WATCH: &[&str] = &["run", "flood", "test_maze_01", "--watch", "--no-cache"];
@@ -323,7 +351,7 @@ fn a_closed_terminal_ends_it() {
     for hangup in [libc::SIG_DFL, libc::SIG_IGN] {
         for keys in ["", " "] {
             let folder = folder();
-            let mut session = Session::start_with(folder.path(), WATCH, hangup);
+            let mut session = Session::start_with(folder.path(), WATCH, (hangup, 80));
             session.wait_for("exploration run");
             session.press(keys);
             assert_eq!(session.close(), Some(129), "{keys:?}");

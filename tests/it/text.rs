@@ -6,6 +6,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use crate::binary::{Ran, ran, wasmouse};
+use crate::contest_text::ContestText;
 
 /// Follows the left wall, in plain names.
 const LEFT: &str = r#";; follows the left wall
@@ -110,9 +111,10 @@ fn folders_and_contests_have_robots_in_text() {
         stderr.contains("malformed WebAssembly text: line 1, column 8: expected `)`"),
         "{stdout}{stderr}"
     );
-    let contest = "version = 1\n[[robots]]\npath = \"bots\"\n[[mazes]]\n\
-                   set = \"mazes\"\npaths = [\"gen:tree:12:1\"]\n";
-    fs::write(folder.join("contest.toml"), contest).expect("a file");
+    ContestText::of(&[])
+        .with("[[robots]]\npath = \"bots\"")
+        .mazes("mazes", &["gen:tree:12:1"])
+        .write(folder);
     let (_, stdout, stderr) = run(folder, "contest run contest.toml");
     assert!(stdout.contains("left"), "{stdout}{stderr}");
 }

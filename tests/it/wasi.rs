@@ -731,7 +731,7 @@ fn a_component_with_wasi_is_built_and_played() {
         played.stdout
     );
     assert!(
-        played.stderr.contains("reproduced 1 matches"),
+        played.stderr.contains("reproduced 1 match\n"),
         "{}",
         played.stderr
     );

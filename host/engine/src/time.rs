@@ -71,6 +71,11 @@ impl CancelFlag {
     pub fn as_atomic(&self) -> &AtomicBool {
         &self.0
     }
+
+    /// The flag as an atomic that is shared, for those who set it while a signal is handled.
+    pub fn to_atomic(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.0)
+    }
 }
 
 /// What ends matches besides fuel and rules; the same for all matches of an executor.

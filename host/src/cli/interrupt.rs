@@ -7,8 +7,8 @@
 //! print, asks the flag of [`listen`] now and then. While nobody does, there is
 //! nothing to lose, and a signal ends the process at once.
 
-use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
-use std::sync::{LazyLock, OnceLock};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, LazyLock, OnceLock};
 
 use wasmouse_engine::CancelFlag;
 
@@ -18,10 +18,11 @@ use super::failure::Failure;
 static INTERRUPTED: LazyLock<CancelFlag> = LazyLock::new(CancelFlag::default);
 
 /// The exit code of the first signal.
-static FIRST: AtomicU8 = AtomicU8::new(Exit::Interrupted as u8);
+static FIRST: LazyLock<Arc<AtomicUsize>> =
+    LazyLock::new(|| Arc::new(AtomicUsize::new(Exit::Interrupted as usize)));
 
-/// Whether somebody asks [`INTERRUPTED`].
-static HEARD: AtomicBool = AtomicBool::new(false);
+/// Whether nobody asks [`INTERRUPTED`], so that a signal ends the process at once.
+static UNHEARD: LazyLock<Arc<AtomicBool>> = LazyLock::new(|| Arc::new(AtomicBool::new(true)));
 
 /// What came of the attempt to handle the signals, which a process can make only once.
 static HANDLING: OnceLock<Result<(), String>> = OnceLock::new();
@@ -40,7 +41,7 @@ pub fn handle() {
 ///
 /// When the signals cannot be handled.
 pub fn listen() -> Result<&'static CancelFlag, Failure> {
-    HEARD.store(true, Ordering::Relaxed);
+    UNHEARD.store(false, Ordering::SeqCst);
     match handled() {
         Ok(()) => Ok(&INTERRUPTED),
         Err(error) => Err(Failure::internal(format!(
@@ -56,56 +57,45 @@ pub fn flag() -> &'static CancelFlag {
 
 /// Stops listening, because there is nothing left to lose: a signal ends the process at once.
 pub fn stop_listening() {
-    HEARD.store(false, Ordering::Relaxed);
+    UNHEARD.store(true, Ordering::SeqCst);
 }
 
 /// The exit code of a command that ended like that: for an interrupted one, that of the signal.
 pub fn exit_of(exit: Exit) -> Exit {
-    let first = FIRST.load(Ordering::Relaxed);
+    let first = FIRST.load(Ordering::SeqCst);
     match exit {
-        Exit::Interrupted if first == Exit::Terminated as u8 => Exit::Terminated,
-        Exit::Interrupted if first == Exit::HungUp as u8 => Exit::HungUp,
+        Exit::Interrupted if first == Exit::Terminated as usize => Exit::Terminated,
+        Exit::Interrupted if first == Exit::HungUp as usize => Exit::HungUp,
         exit => exit,
     }
 }
 
 fn handled() -> &'static Result<(), String> {
-    HANDLING.get_or_init(|| handle_with(received).map_err(|error| error.to_string()))
+    HANDLING.get_or_init(|| handle_signals().map_err(|error| error.to_string()))
 }
 
-/// What a signal with that exit code does.
-fn received(exit: Exit) {
-    let is_second = INTERRUPTED.is_set();
-    if !is_second {
-        FIRST.store(exit as u8, Ordering::Relaxed);
-    }
-    INTERRUPTED.set();
-    if is_second || !HEARD.load(Ordering::Relaxed) {
-        std::process::exit(i32::from(exit as u8));
-    }
-}
-
-/// Calls a function for each signal, on a thread that does nothing else.
+/// Handles signals on whichever thread they arrive. A thread that waits for them could not be
+/// started where memory is short, and they would be lost then.
 #[cfg(unix)]
-fn handle_with(received: fn(Exit)) -> std::io::Result<()> {
+fn handle_signals() -> std::io::Result<()> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-    use signal_hook::iterator::Signals;
+    use signal_hook::flag;
 
-    let mut signals = vec![SIGINT, SIGTERM];
-    if !is_ignored(SIGHUP) {
-        signals.push(SIGHUP);
-    }
-    let mut signals = Signals::new(signals)?;
-    let thread = std::thread::Builder::new().name("signals".to_owned());
-    thread.spawn(move || {
-        for signal in signals.forever() {
-            received(match signal {
-                SIGTERM => Exit::Terminated,
-                SIGHUP => Exit::HungUp,
-                _ => Exit::Interrupted,
-            });
+    for (signal, exit) in [
+        (SIGINT, Exit::Interrupted),
+        (SIGTERM, Exit::Terminated),
+        (SIGHUP, Exit::HungUp),
+    ] {
+        if signal == SIGHUP && is_ignored(SIGHUP) {
+            continue;
         }
-    })?;
+        let code = i32::from(exit as u8);
+        // These run in this order, for each signal.
+        flag::register_conditional_shutdown(signal, code, Arc::clone(&UNHEARD))?;
+        flag::register_conditional_shutdown(signal, code, INTERRUPTED.to_atomic())?;
+        flag::register_usize(signal, Arc::clone(&FIRST), exit as usize)?;
+        flag::register(signal, INTERRUPTED.to_atomic())?;
+    }
     Ok(())
 }
 
@@ -119,8 +109,14 @@ fn is_ignored(signal: i32) -> bool {
     asked == 0 && unsafe { action.assume_init() }.sa_sigaction == libc::SIG_IGN
 }
 
-/// Calls a function for each Ctrl-C.
+/// Handles Ctrl-C, on a thread that the system or the crate starts.
 #[cfg(not(unix))]
-fn handle_with(received: fn(Exit)) -> Result<(), ctrlc::Error> {
-    ctrlc::set_handler(move || received(Exit::Interrupted))
+fn handle_signals() -> Result<(), ctrlc::Error> {
+    ctrlc::set_handler(|| {
+        let is_second = INTERRUPTED.is_set();
+        INTERRUPTED.set();
+        if is_second || UNHEARD.load(Ordering::SeqCst) {
+            std::process::exit(i32::from(Exit::Interrupted as u8));
+        }
+    })
 }

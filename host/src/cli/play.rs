@@ -2,7 +2,6 @@
 
 use std::time::Duration;
 
-use indicatif::ProgressBar;
 use wasmouse_core::record::MatchKey;
 use wasmouse_engine::Executor;
 
@@ -34,7 +33,7 @@ pub fn play(
     sink: &mut dyn Sink,
 ) -> Result<(), Failure> {
     let cancelled = interrupt::listen()?.as_atomic();
-    let bar = ProgressBar::new(total).with_style(bar::matches(""));
+    let bar = bar::new(total, bar::matches(""));
     let options = Options {
         jobs: pace.jobs,
         cancelled,
@@ -47,10 +46,17 @@ pub fn play(
     };
     let played = contest::run(plan, executor, &options, sink);
     bar.finish_and_clear();
-    played.map_err(|error| match &error {
-        RunError::Thread(_) => Failure::internal(error).hint("try fewer threads with --jobs"),
+    played.map_err(|error| failure(&error))
+}
+
+/// The failure of a contest that did not come to its end.
+pub fn failure(error: &RunError) -> Failure {
+    match error {
+        RunError::Thread(_) => {
+            Failure::internal(error).hint("raise the limits of this process on memory and threads")
+        }
         RunError::Sink(_) => Failure::internal(error),
-    })
+    }
 }
 
 /// Plays all matches of a plan.

@@ -21,6 +21,7 @@ use super::verdict::print_failed_admissions;
 use crate::contest::{
     ContestMatch, MatchFailure, Plan, RecordList, Results, Sink, Tee, differences,
 };
+use crate::report::number::{counted, counted_were};
 use crate::report::verification::{Difference, MatchName};
 
 /// Differences that are listed.
@@ -82,39 +83,39 @@ pub fn check(
     }
     if is_interrupted()? {
         message!(
-            "interrupted: {} matches were not played a second time",
-            missing
+            "interrupted: {} not played a second time",
+            counted_were(missing, "match")
         );
         return Ok(Exit::Interrupted);
     }
     print_failed_admissions(&again);
     for (key, (reason, matches)) in &reasons.0 {
         message!(
-            "error: {} matches of `{}` were not played a second time: {}",
-            matches,
+            "error: `{}`: {} not played a second time: {}",
             names.robot(key).escaped(),
+            counted_were(*matches, "match"),
             reason.escaped()
         );
     }
     if count > 0 {
         message!(
-            "error: {} values differ when the contest is played again\n\n\
+            "error: {} when the contest is played again\n\n\
              hint: a damaged cache of compiled robots (try --no-cache), a faulty machine, or a \
              bug in wasmouse",
-            count
+            counted(count, "difference")
         );
         return Ok(Exit::CheckFailed);
     }
     if missing > 0 {
-        let (missing, all) = (missing, results.matches.len());
+        let all = counted(results.matches.len(), "match");
         message!(
-            "error: {} of {} matches could not be played a second time",
+            "error: {} of {} could not be played a second time",
             missing,
             all
         );
         return Ok(Exit::Internal);
     }
-    message!("reproduced {} matches", results.matches.len());
+    message!("reproduced {}", counted(results.matches.len(), "match"));
     Ok(Exit::Success)
 }
 

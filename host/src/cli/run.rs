@@ -300,16 +300,10 @@ impl Args {
         let file_failed = |error: io::Error| {
             Failure::internal(format!("failed to write `{}`: {error}", path.display()))
         };
-        let mut file = file
-            .map(|draft| FileWriter::new(draft, path, &contest))
-            .transpose()
-            .map_err(file_failed)?;
-        let stdout = self
+        let mut file = file.map(|draft| FileWriter::new(draft, path, &contest));
+        let mut stdout = self
             .json
             .then(|| ResultsWriter::new(Stdout::default(), &contest));
-        let mut stdout = stdout
-            .transpose()
-            .map_err(|error| output::stdout_failure(&error))?;
 
         let mut sinks: Vec<&mut dyn Sink> =
             vec![&mut standings, &mut summary, &mut faults, &mut list];
@@ -378,11 +372,11 @@ enum FileWriter {
 }
 
 impl FileWriter {
-    fn new(draft: Draft, path: &Path, contest: &ContestInfo) -> io::Result<Self> {
+    fn new(draft: Draft, path: &Path, contest: &ContestInfo) -> Self {
         if path.extension() == Some(OsStr::new("jsonl")) {
-            Ok(Self::Lines(JsonLines::new(draft)))
+            Self::Lines(JsonLines::new(draft))
         } else {
-            ResultsWriter::new(draft, contest).map(Self::Document)
+            Self::Document(ResultsWriter::new(draft, contest))
         }
     }
 

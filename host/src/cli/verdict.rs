@@ -5,6 +5,7 @@ use super::output::message;
 use crate::contest::{Complaints, FaultSummary, NotAdmitted, Plan, Player, Results, RobotEntry};
 use crate::report::escape::for_terminal;
 use crate::report::faults::faults;
+use crate::report::number::{counted, counted_were};
 
 /// The exit code that goes with results; says on stderr what was not played.
 pub fn exit(plan: &Plan, results: &Results) -> Exit {
@@ -27,11 +28,11 @@ pub fn exit(plan: &Plan, results: &Results) -> Exit {
             .find(is_meant)
             .map_or("?".into(), |it| it.name.as_guest());
         message!(
-            "withdrawn `{}`: {}; {} of its matches were not played\n  \
+            "withdrawn `{}`: {}; {} not played\n  \
              hint: --match-time and --robot-time allow more",
             for_terminal(robot),
             for_terminal(&entry.reason),
-            entry.matches
+            counted_were(entry.matches, "match")
         );
     }
     let planned = results.contest.matches_planned;
@@ -40,12 +41,12 @@ pub fn exit(plan: &Plan, results: &Results) -> Exit {
     if ended < planned {
         let standings = &summary.standings;
         message!(
-            "interrupted after {} of {} matches; standings cover the {} of {} mazes \
+            "interrupted after {} of {}; standings cover the {} of {} \
              that every robot has played",
             ended,
-            planned,
+            counted(planned, "match"),
             standings.mazes,
-            plan.mazes.len()
+            counted(plan.mazes.len(), "maze")
         );
         return Exit::Interrupted;
     }

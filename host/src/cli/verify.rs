@@ -23,6 +23,7 @@ use crate::contest::{
     RecordList, Results, StandingsBuilder, SummaryBuilder, Tee, compare, compare_played,
 };
 use crate::report::escape::for_terminal;
+use crate::report::number::counted;
 use crate::report::results_json::{read_results, write_results};
 use crate::report::verification::{
     Differences, FileReport, MatchName, NeededKind, NotFound, Status, to_json,
@@ -233,8 +234,9 @@ impl Args {
         };
         let found = self.play(&plan, &recorded, &executor)?;
         if is_interrupted()? {
-            let (played, all) = (found.matches.len(), recorded.matches.len());
-            let reason = format!("interrupted after {played} of {all} matches");
+            let played = found.matches.len();
+            let all = counted(recorded.matches.len(), "match");
+            let reason = format!("interrupted after {played} of {all}");
             report.reason = Some(reason.into());
             return Ok((report, Exit::Interrupted));
         }

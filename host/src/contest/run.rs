@@ -56,7 +56,7 @@ pub type OnEnded<'a> = dyn Fn(&Arc<ContestMaze>, &Arc<Ended>) -> io::Result<()> 
 
 /// How a contest is run.
 pub struct Options<'a> {
-    /// Threads. Range: at least 1.
+    /// Threads, or as many of them as the system can start. Range: at least 1.
     pub jobs: usize,
     /// When this becomes true, matches that have not begun are left out.
     pub cancelled: &'a AtomicBool,
@@ -74,7 +74,7 @@ pub struct Options<'a> {
 /// Why a contest did not come to its end.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
-    /// A thread could not be started.
+    /// Not even one thread could be started.
     #[error("failed to start a thread: {0}")]
     Thread(io::Error),
     /// A sink could not go on.
@@ -86,7 +86,7 @@ pub enum RunError {
 ///
 /// # Errors
 ///
-/// When a thread cannot be started or the sink fails. What the sink has received by then
+/// When no thread can be started or the sink fails. What the sink has received by then
 /// stands.
 pub fn run(
     plan: &Plan,
@@ -123,14 +123,17 @@ pub fn run(
     };
     thread::scope(|scope| {
         for job in 0..jobs {
-            thread::Builder::new()
+            let started = thread::Builder::new()
                 .name(format!("matches-{job}"))
                 .stack_size(STACK_BYTES)
-                .spawn_scoped(scope, || run.work())
-                .map_err(|error| {
+                .spawn_scoped(scope, || run.work());
+            // Where there is no room for all threads, those that have started play everything.
+            if let Err(error) = started {
+                if job == 0 {
                     run.fail(RunError::Thread(error));
-                })
-                .ok();
+                }
+                break;
+            }
         }
     });
     run.finish()

@@ -39,6 +39,7 @@ use super::table::{self, Layout};
 use crate::contest::{
     MazeFilter, Mean, PairedComparison, PairedVerdict, Ranking, ScoreMatrix, Scoring, Seeds,
 };
+use crate::report::number::counted;
 
 /// The version of the document; raised when a reader of the old one would go wrong.
 const VERSION: u32 = 1;
@@ -172,8 +173,9 @@ impl Comparisons {
         for robot in &self.robots {
             let unfinished = robot.matches - robot.finished;
             if unfinished > 0 {
-                let (name, matches) = (for_terminal(&robot.name), robot.matches);
-                text += &format!("{name} did not finish {unfinished} of {matches} matches.\n");
+                let name = for_terminal(&robot.name);
+                let matches = counted(robot.matches, "match");
+                text += &format!("{name} did not finish {unfinished} of {matches}.\n");
             }
         }
         text

@@ -6,6 +6,7 @@ use wasmouse_core::{Digest, GuestText};
 
 use super::text::text;
 use crate::contest::ScoreMatrix;
+use crate::report::number::counted;
 
 /// What [`contest_status`] shows.
 pub struct Status<'a> {
@@ -37,9 +38,9 @@ pub fn contest_status(status: &Status<'_>) -> String {
     let matrix = status.matrix;
     line(text!("{}: {}", status.name, status.store));
     line(text!(
-        "{} of {} matches were played, {} are left to play",
+        "{} of {} played, {} left to play",
         matrix.played(),
-        status.matches,
+        counted(status.matches, "match"),
         status.left
     ));
     if status.is_checked {
@@ -47,8 +48,8 @@ pub fn contest_status(status: &Status<'_>) -> String {
     }
     if status.conflicts > 0 {
         line(text!(
-            "{} matches have two different records: this is a bug, or the store was changed",
-            status.conflicts
+            "{} with two different records: this is a bug, or the store was changed",
+            counted(status.conflicts, "match")
         ));
     }
     line(text!("\nrobots"));
@@ -58,13 +59,10 @@ pub fn contest_status(status: &Status<'_>) -> String {
         let played = mazes
             .flat_map(|maze| seeds.clone().map(move |seed| (maze, seed)))
             .filter(|&(maze, seed)| matrix.get(index, maze, seed).is_some());
-        line(text!(
-            "  {}: {} matches",
-            robot.name.escaped(),
-            played.count()
-        ));
+        let played = counted(played.count(), "match");
+        line(text!("  {}: {}", robot.name.escaped(), played));
         for (kind, fault) in &robot.faults {
-            line(text!("    {} times {}", fault.count, kind));
+            line(text!("    {} {}", counted(fault.count, "time"), kind));
         }
         for (reason, count) in &robot.unplayed {
             line(text!("    {} not played: {}", count, reason.escaped()));

@@ -7,6 +7,7 @@ use wasmouse_core::{GuestText, guest_text};
 
 use super::escape;
 use crate::contest::{Complaint, Complaints, FaultSummary, Names};
+use crate::report::number::counted;
 
 /// One line for each robot and kind of fault: how many of the robot's matches ended so, and the
 /// first of them, followed by what the robot wrote then. Empty when there is no fault.
@@ -28,11 +29,11 @@ pub fn faults(
         let complaint = complaints.get(group.player, fault.kind.name());
         writeln!(
             text,
-            "fault: `{}`: {} in {} of {} matches, first in `{}`, seed {}: {}",
+            "fault: `{}`: {} in {} of {}, first in `{}`, seed {}: {}",
             escape::for_terminal(robot),
             fault.kind.name(),
             group.count,
-            matches(group.player),
+            counted(matches(group.player), "match"),
             escape::for_terminal(maze),
             key.seed,
             escape::for_terminal(&explained(fault, complaint)),
@@ -57,7 +58,8 @@ pub(crate) fn explained(fault: &Fault, complaint: Option<&Complaint>) -> GuestTe
 pub(crate) fn quoted(complaint: &Complaint) -> String {
     let mut text = String::new();
     if complaint.left_out > 0 {
-        text.push_str(&format!("  | ({} earlier lines)\n", complaint.left_out));
+        let lines = counted(complaint.left_out, "earlier line");
+        text.push_str(&format!("  | ({lines})\n"));
     }
     for line in &complaint.lines {
         text.push_str(&format!("  | {}\n", escape::for_terminal(line)));

@@ -25,7 +25,7 @@ pub mod jsonl;
 pub mod match_link;
 pub mod maze_check;
 pub mod maze_solve;
-mod number;
+pub(crate) mod number;
 mod paired;
 mod paths;
 pub mod picture;

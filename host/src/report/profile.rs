@@ -45,12 +45,16 @@ impl ProfiledMatch<'_> {
     /// with a newline.
     pub fn table(&self, functions: usize) -> String {
         let fuel = self.profile.fuel();
+        let steps = match self.steps {
+            1 => "1 step".to_owned(),
+            steps => format!("{} steps", grouped(steps)),
+        };
         let mut text = format!(
-            "{}: {}, {} fuel in `start` and {} steps\n\n",
+            "{}: {}, {} fuel in `start` and {}\n\n",
             for_terminal(&self.title()),
             self.verdict,
             grouped(fuel),
-            grouped(self.steps)
+            steps
         );
         text.push_str("   Own fuel         Total fuel             Calls  Function\n");
         text.push_str(&"-".repeat(WIDTH));

@@ -15,29 +15,25 @@ use crate::contest::{ContestInfo, ContestMatch, RESULTS_VERSION, Results, Sink, 
 
 /// Writes a results document while the contest is played.
 ///
-/// What has been written is a document only after [`ResultsWriter::finish`].
+/// What has been written is a document only after [`ResultsWriter::finish`]. Nothing is written
+/// before the first match, so that a contest that cannot begin leaves no part of a document.
 #[derive(Debug)]
 pub struct ResultsWriter<W> {
     out: W,
-    has_matches: bool,
+    /// What comes before the matches, until it is written.
+    head: Option<String>,
 }
 
 impl<W: io::Write> ResultsWriter<W> {
-    /// Writes everything that comes before the matches to `out`, which should be buffered.
-    ///
-    /// # Errors
-    ///
-    /// When writing fails.
-    pub fn new(mut out: W, contest: &ContestInfo) -> io::Result<Self> {
-        write!(
+    /// Writes to `out`, which should be buffered.
+    pub fn new(out: W, contest: &ContestInfo) -> Self {
+        let contest = nested(&json::pretty(contest));
+        Self {
             out,
-            "{{\n  \"version\": {RESULTS_VERSION},\n  \"contest\": {},\n  \"matches\": [",
-            nested(&json::pretty(contest))
-        )?;
-        Ok(Self {
-            out,
-            has_matches: false,
-        })
+            head: Some(format!(
+                "{{\n  \"version\": {RESULTS_VERSION},\n  \"contest\": {contest},\n  \"matches\": ["
+            )),
+        }
     }
 
     /// Writes the next match.
@@ -46,9 +42,8 @@ impl<W: io::Write> ResultsWriter<W> {
     ///
     /// When writing fails.
     pub fn record(&mut self, record: &MatchRecord) -> io::Result<()> {
-        let comma = if self.has_matches { "," } else { "" };
-        self.has_matches = true;
-        write!(self.out, "{comma}\n    {}", json::line(record))
+        let before = self.head.take().unwrap_or_else(|| ",".to_owned());
+        write!(self.out, "{before}\n    {}", json::line(record))
     }
 
     /// Writes everything that comes after the matches, flushes the output and returns it.
@@ -57,9 +52,9 @@ impl<W: io::Write> ResultsWriter<W> {
     ///
     /// When writing fails.
     pub fn finish(mut self, summary: &Summary) -> io::Result<W> {
-        let end = if self.has_matches { "\n  " } else { "" };
+        let before = self.head.take().unwrap_or_else(|| "\n  ".to_owned());
         let summary = nested(&json::pretty(summary));
-        write!(self.out, "{end}],\n  \"summary\": {summary}\n}}\n")?;
+        write!(self.out, "{before}],\n  \"summary\": {summary}\n}}\n")?;
         self.out.flush()?;
         Ok(self.out)
     }
@@ -77,7 +72,7 @@ impl<W: io::Write + Send> Sink for ResultsWriter<W> {
 ///
 /// When writing fails.
 pub fn write_results<W: io::Write>(results: &Results, out: W) -> io::Result<W> {
-    let mut writer = ResultsWriter::new(out, &results.contest)?;
+    let mut writer = ResultsWriter::new(out, &results.contest);
     for record in &results.matches {
         writer.record(record)?;
     }
@@ -219,24 +214,37 @@ mod tests {
         for matches in [results.matches.clone(), Vec::new()] {
             results.matches = matches;
             let text = written(&results);
-            let streamed =
-                ResultsWriter::new(Vec::new(), &results.contest).and_then(|mut writer| {
-                    for record in &results.matches {
-                        writer.played(&ContestMatch {
-                            player: 0,
-                            record: record.clone(),
-                            transcript: Transcript::default(),
-                        })?;
-                    }
-                    writer.finish(&results.summary)
+            let mut streamed = Vec::new();
+            let mut writer = ResultsWriter::new(&mut streamed, &results.contest);
+            for record in &results.matches {
+                let played = writer.played(&ContestMatch {
+                    player: 0,
+                    record: record.clone(),
+                    transcript: Transcript::default(),
                 });
-            assert_eq!(streamed.expect("memory takes everything"), text.as_bytes());
+                played.expect("memory takes everything");
+            }
+            let finished = writer.finish(&results.summary);
+            finished.expect("memory takes everything");
+            assert_eq!(streamed, text.as_bytes());
             assert_eq!(read_results(text.as_bytes()), Ok(results.clone()));
             let one_per_line =
                 |line: &&str| line.trim_start().starts_with("{\"version\":2,\"key\":");
             let lines = text.lines().filter(one_per_line).count();
             assert_eq!(lines, results.matches.len());
         }
+    }
+
+    #[test]
+    fn nothing_is_written_before_the_first_match() {
+        let results = results();
+        let mut written = Vec::new();
+        drop(ResultsWriter::new(&mut written, &results.contest));
+        assert!(written.is_empty(), "{written:?}");
+        let mut writer = ResultsWriter::new(&mut written, &results.contest);
+        let recorded = writer.record(&results.matches[0]);
+        recorded.expect("memory takes everything");
+        assert!(!written.is_empty());
     }
 
     #[test]

@@ -6,6 +6,7 @@ use wasmouse_core::game::FuelClass;
 
 use super::escape;
 use crate::contest::{ContestInfo, Mean, RobotEntry, Standing, Standings};
+use crate::report::number::counted;
 
 /// What is shown where there is no value.
 pub(super) const NONE: &str = "-";
@@ -15,12 +16,12 @@ pub(super) fn scope(contest: &ContestInfo, standings: &Standings) -> String {
     let mazes = standings.mazes;
     let mut scope = if standings.partial {
         let planned = mazes_planned(contest);
-        format!("partial: ranked over {mazes} of {planned} mazes that every robot has played")
-    } else {
         format!(
-            "ranked over {mazes} {}",
-            if mazes == 1 { "maze" } else { "mazes" }
+            "partial: ranked over {mazes} of {} that every robot has played",
+            counted(planned, "maze")
         )
+    } else {
+        format!("ranked over {}", counted(mazes, "maze"))
     };
     // The usual one goes without saying.
     match contest.rules.fuel_class() {

@@ -40,6 +40,7 @@ use super::escape::for_terminal;
 use super::json;
 use super::table::Lines;
 use crate::contest::{Benchmark, Margins, MazeFilter, Mean, ScoreMatrix, Seeds};
+use crate::report::number::counted;
 
 /// The version of the document; raised when a reader of the old one would go wrong.
 const VERSION: u32 = 1;
@@ -248,7 +249,11 @@ impl Part {
     }
 
     fn summary(&self) -> String {
-        let mut text = format!("finished {} of {} matches", self.finished, self.matches);
+        let mut text = format!(
+            "finished {} of {}",
+            self.finished,
+            counted(self.matches, "match")
+        );
         for measured in &self.benchmarks {
             if let Some(margin) = measured.mean_margin_thousandths {
                 let share = Mean::fraction(i128::from(measured.beaten) * 100, self.finished.into());

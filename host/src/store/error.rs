@@ -131,7 +131,7 @@ pub enum StoreErrorKind {
         expected: String,
     },
     /// A store to merge contradicts the one to merge into, or itself.
-    #[error("{count} of its records contradict those of `{}`, the first: {first}", into.display())]
+    #[error("it has records that contradict those of `{}`: {count}, the first: {first}", into.display())]
     Conflicts {
         /// How many.
         count: u64,

@@ -1,8 +1,8 @@
 //! [`Replay`]: one match in one file, to be watched without the robot.
 //!
 //! A replay holds the maze, the rules, the record and the robot's actions; everything else follows
-//! from them ([`Playback`](crate::playback::Playback)). It is checked when it is read, so a `Replay` is always a match that
-//! can have happened.
+//! from them ([`Playback`](crate::playback::Playback)). It is checked when it is read, so a `Replay`
+//! is always a match that can have happened.
 
 mod error;
 mod form;

@@ -7,6 +7,7 @@ mod bindings;
 mod cache;
 mod cache_folder;
 mod compiled_code;
+mod compilers;
 mod config;
 mod cost;
 mod entry;

@@ -10,6 +10,7 @@ use wasmtime::{Engine, Store};
 use super::artefact;
 use super::bindings::{Robot, RobotPre};
 use super::cache::Cache;
+use super::compilers;
 use super::config::{self, Clock};
 use super::guest::{self, Guest};
 use super::interface;
@@ -65,18 +66,21 @@ pub enum AdmissionError {
 
 impl AdmissionError {
     /// What it means that the engine does not take a component: what the operating system
-    /// refuses, above all memory for the code, is not the fault of the component.
+    /// refuses, above all memory for the code, is not the fault of the component. Nor is code
+    /// that cannot be read back, because this build wrote it: memory ran out.
     #[expect(
         clippy::needless_pass_by_value,
         reason = "used as a function in map_err"
     )]
-    fn of_engine(error: wasmtime::Error) -> Self {
+    pub(crate) fn of_engine(error: wasmtime::Error) -> Self {
         let is_of_system = |cause: &(dyn Error + 'static)| {
             #[cfg(unix)]
             if cause.is::<rustix::io::Errno>() {
                 return true;
             }
             cause.is::<io::Error>()
+                || cause.is::<wasmtime::error::OutOfMemory>()
+                || cause.is::<postcard::Error>()
         };
         if error.chain().any(is_of_system) {
             Self::Host(InfrastructureError::Load(format!("{error:#}")))
@@ -251,6 +255,7 @@ impl Runtime {
     }
 
     fn compile_now(&self, component: &[u8]) -> Result<Component, AdmissionError> {
+        compilers::start()?;
         Component::from_binary(&self.engine, component).map_err(AdmissionError::of_engine)
     }
 

@@ -10,6 +10,7 @@ use super::super::output::{self, Draft, Existing, message};
 use super::load::{ContestFolder, FILE_NAME};
 use super::resolve;
 use crate::contest::{COMMITMENT_VERSION, OpenedSet, Opening};
+use crate::report::number::counted;
 use crate::report::text::{Text, text};
 
 const EXAMPLES: &str = "\
@@ -69,7 +70,12 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     secret.commit()?;
     public.commit()?;
     for set in &committed.sets {
-        let line = text!("{}: {} mazes, {}\n", set.name, set.mazes, set.digest);
+        let line = text!(
+            "{}: {}, {}\n",
+            set.name,
+            counted(set.mazes, "maze"),
+            set.digest
+        );
         output::print(line.as_str())?;
     }
     message!(

@@ -2,6 +2,7 @@
 
 use super::super::output::message;
 use crate::contest::{NotAdmitted, ScoreMatrix};
+use crate::report::number::counted_were;
 use crate::store::StoreError;
 
 /// Says on stderr what was not played.
@@ -16,9 +17,9 @@ pub fn print_unplayed(matrix: &ScoreMatrix) {
         }
         for (reason, matches) in &robot.unplayed {
             message!(
-                "`{}`: {} matches were not played: {}",
+                "`{}`: {} not played: {}",
                 robot.name.escaped(),
-                matches,
+                counted_were(*matches, "match"),
                 reason.escaped()
             );
         }

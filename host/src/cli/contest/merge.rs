@@ -7,6 +7,7 @@ use super::super::failure::Failure;
 use super::super::output::{self, message};
 use super::super::store_failure::store_failure;
 use super::failures::print_hint;
+use crate::report::number::{counted, counted_were};
 use crate::report::text::{Text, text};
 use crate::store::{MergeOptions, Store};
 
@@ -55,10 +56,10 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         match into.merge(store, options) {
             Ok(report) => {
                 let line = text!(
-                    "{}: {} matches added, {} were there already\n",
+                    "{}: {} added, {} there already\n",
                     Text::of_path(path),
-                    report.added,
-                    report.same
+                    counted(report.added, "match"),
+                    counted_were(report.same, "match")
                 );
                 output::print(line.as_str())?;
             }

@@ -18,6 +18,7 @@ use super::super::bar;
 use super::super::output::message;
 use crate::contest::{Ended, MatchScore, Mean, Outcome, ScoreMatrix, Scoring};
 use crate::report::escape::for_terminal;
+use crate::report::number::counted;
 
 /// Robots that are shown.
 const SHOWN_MAX: usize = 3;
@@ -59,7 +60,7 @@ impl Progress {
     /// The progress of a contest of which `before` has been played, with `total` matches left.
     pub fn new(before: &ScoreMatrix, scoring: &Scoring, total: u64) -> Self {
         let is_terminal = stderr().is_terminal();
-        let bar = ProgressBar::new(total).with_style(bar::matches("\n{msg}"));
+        let bar = bar::new(total, bar::matches("\n{msg}"));
         let game = &before.rules.game;
         let mut progress = Self {
             bar,
@@ -147,9 +148,9 @@ impl Progress {
             let left = (self.total - state.ended.min(self.total)) as f64;
             let left = (left * seconds / state.ended as f64).ceil() as u64;
             message!(
-                "{} of {} matches, {} s left; {}",
+                "{} of {}, {} s left; {}",
                 state.ended,
-                self.total,
+                counted(self.total, "match"),
                 left,
                 line
             );
@@ -173,7 +174,7 @@ impl Progress {
             write!(line, "{separator}{place}. {name} {mean}").expect("a string takes any text");
         }
         let (faults, unplayed) = (state.faults, state.unplayed);
-        write!(line, "; {faults} faults").expect("a string takes any text");
+        write!(line, "; {}", counted(faults, "fault")).expect("a string takes any text");
         if unplayed > 0 {
             write!(line, "; {unplayed} not played").expect("a string takes any text");
         }

@@ -12,6 +12,7 @@ use super::super::input;
 use super::super::output::{self, message};
 use super::super::store_failure::store_failure;
 use crate::contest::{COMMITMENT_VERSION, Commitment, Opening};
+use crate::report::number::counted;
 use crate::report::text::{Text, text};
 use crate::store::Store;
 
@@ -73,7 +74,11 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         return Ok(Exit::CheckFailed);
     }
     for set in &commitment.sets {
-        let line = text!("{}: {} mazes, as committed to\n", set.name, set.mazes);
+        let line = text!(
+            "{}: {}, as committed to\n",
+            set.name,
+            counted(set.mazes, "maze")
+        );
         output::print(line.as_str())?;
     }
     Ok(Exit::Success)

@@ -10,6 +10,7 @@ use super::super::exit::Exit;
 use super::super::failure::Failure;
 use super::super::interrupt;
 use super::super::output::message;
+use super::super::play;
 use super::super::robots;
 use super::super::setup::{EngineArgs, IsolationArgs, TimeArgs};
 use super::super::store_failure::{store_failure, store_failure_of};
@@ -25,6 +26,7 @@ use crate::contest::{
     self, ContestMatch, Entrant, KeepTranscripts, NotAdmitted, Options, Plan, RejectionEntry,
     RunError, ScoreMatrix, Sink,
 };
+use crate::report::number::counted;
 use crate::report::text::Text;
 use crate::store::{KeptTranscripts, Store, StoreError, StoreSink, Submission};
 
@@ -129,10 +131,10 @@ impl Args {
             // The reports say so otherwise.
             print_unplayed(&matrix);
             message!(
-                "{} of {} matches are in {}; `wasmouse contest merge` joins the parts",
+                "{} has {} of {}; `wasmouse contest merge` joins the parts",
+                Text::of_path(&path),
                 matrix.played(),
-                contest.matches(&matrix),
-                Text::of_path(&path)
+                counted(contest.matches(&matrix), "match")
             );
         }
         Ok(if interrupt::flag().is_set() {
@@ -209,7 +211,7 @@ impl Args {
             Some(error) => store_failure_of(error),
             None => Failure::internal(error),
         })?;
-        played.map_err(|error| Failure::internal(error).hint("try fewer threads with --jobs"))?;
+        played.map_err(|error| play::failure(&error))?;
         Ok(entrants)
     }
 
@@ -249,7 +251,7 @@ fn seal_and_read(
     thread::scope(|scope| {
         let seal = move || store.seal();
         let sealing = thread::Builder::new().spawn_scoped(scope, seal);
-        let sealing = sealing.map_err(|error| Failure::internal(RunError::Thread(error)))?;
+        let sealing = sealing.map_err(|error| play::failure(&RunError::Thread(error)))?;
         let matrix = contest.matrix(&reader, not_admitted);
         let sealed = sealing.join();
         let sealed = sealed.unwrap_or_else(|panic| std::panic::resume_unwind(panic));

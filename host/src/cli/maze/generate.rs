@@ -9,6 +9,7 @@ use super::super::failure::Failure;
 use super::super::interrupt;
 use super::super::mazes;
 use super::super::output::{self, Existing, message};
+use crate::report::number::counted;
 use crate::report::text::{Text, text};
 use wasmouse_core::maze::Maze;
 use wasmouse_core::maze::format::{self, Format};
@@ -187,22 +188,17 @@ fn save_all(
         );
         return Err(Failure::input(message).hint("replace it with --force"));
     }
-    let (count, shown) = (spec.count(), Text::of_path(folder));
+    let (count, shown) = (counted(spec.count(), "maze"), Text::of_path(folder));
     let interrupted = interrupt::listen()?;
     for (written, generated) in spec.expand().enumerate() {
         let (name, maze) = (generated.to_string(), generated.generate());
         if interrupted.is_set() {
-            message!(
-                "interrupted: wrote {} of {} mazes to {}",
-                written,
-                count,
-                shown
-            );
+            message!("interrupted: wrote {} of {} to {}", written, count, shown);
             return Ok(Exit::Interrupted);
         }
         output::save(&file(&name), text(&maze, format).as_bytes(), existing)?;
     }
-    message!("wrote {} mazes to {}", count, shown);
+    message!("wrote {} to {}", count, shown);
     Ok(Exit::Success)
 }
 

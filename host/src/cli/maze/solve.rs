@@ -11,6 +11,7 @@ use super::super::mazes::{self, BadFiles, Legality};
 use super::super::output;
 use crate::contest::ContestMaze;
 use crate::report::maze_solve::{MazeSolve, Solution as SolutionJson, SolvedMaze};
+use crate::report::number::counted;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -112,7 +113,11 @@ fn listing(mazes: &[ContestMaze], solutions: &[Option<Solution>], brief: bool) -
 }
 
 fn length(path: &Path) -> String {
-    format!("{} steps, {} cells", path.steps(), path.cells())
+    format!(
+        "{}, {}",
+        counted(path.steps(), "step"),
+        counted(path.cells(), "cell")
+    )
 }
 
 /// The path as a robot drives it: `up 3, right 1`.

@@ -8,6 +8,7 @@ use super::document::ContestReport;
 use super::view::{Part, View, state};
 use super::words;
 use crate::report::escape::for_terminal;
+use crate::report::number::counted;
 
 /// The rankings as tables, then robots without a rank, faults and how the ranks were decided.
 ///
@@ -17,13 +18,13 @@ pub fn markdown(report: &ContestReport<'_>) -> String {
     let mut text = String::new();
     let mut line = |line: &str| writeln!(text, "{line}").expect("writing to a string cannot fail");
     line(&format!("# Contest {}\n", code(report.name)));
-    let matches = words::count(view.matches_played(), "match");
-    let robots = words::count(view.robots.len() as u64, "robot");
+    let matches = counted(view.matches_played(), "match");
+    let robots = counted(view.robots.len() as u64, "robot");
     let class = report.matrix.rules.fuel_class();
     let class = class.map_or_else(String::new, |it| format!(", fuel class {}", it.name()));
     line(&format!(
         "{robots}, {}, {matches}; ruleset {} version {}{class}.",
-        words::count(report.matrix.mazes.len() as u64, "maze"),
+        counted(report.matrix.mazes.len() as u64, "maze"),
         code(&report.matrix.rules.name),
         report.matrix.rules.version
     ));

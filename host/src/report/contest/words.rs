@@ -8,7 +8,7 @@ use super::view::{FaultLine, Part, Unranked, View};
 use crate::contest::{
     MatchScore, Mean, Method, Outcome, PairedVerdict, RankingLine, Scoring, Seeds, TieBreak,
 };
-use crate::report::number::grouped;
+use crate::report::number::{counted, grouped};
 
 /// What is shown where there is no value.
 pub(super) const NONE: &str = "-";
@@ -89,27 +89,20 @@ pub(super) fn scope(part: &Part<'_>) -> String {
     let ranking = part.ranking;
     let (mazes, total) = (ranking.mazes, ranking.mazes_total);
     let mut scope = if ranking.partial {
-        format!("partial: ranked over {mazes} of {total} mazes that every robot has played")
+        format!(
+            "partial: ranked over {mazes} of {} that every robot has played",
+            counted(total, "maze")
+        )
     } else {
-        format!("ranked over {}", count(mazes, "maze"))
+        format!("ranked over {}", counted(mazes, "maze"))
     };
     if ranking.mazes_unreachable > 0 {
-        let unreachable = count(ranking.mazes_unreachable, "maze");
+        let unreachable = counted(ranking.mazes_unreachable, "maze");
         scope.push_str(&format!(
             "; {unreachable} without a path to the goal left out"
         ));
     }
     scope
-}
-
-/// A number of things: `1 maze`, `2 mazes`.
-pub(super) fn count(number: u64, thing: &str) -> String {
-    let ending = match (number, thing) {
-        (1, _) => "",
-        (_, "match") => "es",
-        _ => "s",
-    };
-    format!("{number} {thing}{ending}")
 }
 
 /// What is not shown, as sentences; empty if everything is.
@@ -140,14 +133,20 @@ pub(super) fn left_out(view: &View<'_>) -> Vec<String> {
 /// `1 robot is`, `2 robots are`.
 fn are(number: u64, thing: &str) -> String {
     let verb = if number == 1 { "is" } else { "are" };
-    format!("{} {verb}", count(number, thing))
+    format!("{} {verb}", counted(number, thing))
 }
 
 /// How many matches are missing, as a sentence; `None` if everything was played.
 pub(super) fn missing(view: &View<'_>) -> Option<String> {
     let planned = view.report.matches_planned;
     let missing = planned.saturating_sub(view.matches_played());
-    (missing > 0).then(|| format!("Incomplete: {missing} of {planned} matches were not played."))
+    (missing > 0).then(|| {
+        let verb = if missing == 1 { "was" } else { "were" };
+        format!(
+            "Incomplete: {missing} of {} {verb} not played.",
+            counted(planned, "match")
+        )
+    })
 }
 
 /// Why a robot has no rank, as a sentence after its name, with line breaks left out.
@@ -160,7 +159,7 @@ pub(super) fn unranked(unranked: &Unranked<'_>) -> GuestText {
         text.push(if index == 0 { ": " } else { "; " });
         text.push(*reason);
         if let Some(number) = count_of {
-            text.push(&format!(" ({} not played)", count(*number, "match")));
+            text.push(&format!(" ({} not played)", counted(*number, "match")));
         }
     }
     text
@@ -169,7 +168,7 @@ pub(super) fn unranked(unranked: &Unranked<'_>) -> GuestText {
 /// A kind of fault of a robot, as a sentence after its name.
 pub(super) fn fault(line: &FaultLine<'_>) -> GuestText {
     let (kind, count, matches) = (line.kind, line.count, line.matches);
-    let mut text = guest_text!("{} in {} of {} matches", kind, count, matches);
+    let mut text = guest_text!("{} in {} of {}", kind, count, counted(matches, "match"));
     match &line.first {
         None => text.push(", first in a hidden maze"),
         Some(first) => {
@@ -195,7 +194,7 @@ pub(super) fn comparison(view: &View<'_>, compared: &Compared) -> GuestText {
             "{} and {} scored equally in every maze ({})",
             first,
             second,
-            count(it.mazes, "maze")
+            counted(it.mazes, "maze")
         );
     }
     let thousandths = |value: i64| Mean::fraction(value.into(), 1000).to_string();
@@ -241,10 +240,10 @@ pub(super) fn comparison(view: &View<'_>, compared: &Compared) -> GuestText {
     let mut text = guest_text!("{}{}", head, interval.unwrap_or_default());
     text.push(&format!(
         ", in {}: {wins} better, {ties} equal, {losses} worse",
-        count(it.mazes, "maze")
+        counted(it.mazes, "maze")
     ));
     if let (PairedVerdict::Undecided, Some(mazes)) = (it.verdict, it.mazes_to_decide) {
-        text.push(&format!("; about {mazes} mazes would decide"));
+        text.push(&format!("; about {} would decide", counted(mazes, "maze")));
     }
     text
 }

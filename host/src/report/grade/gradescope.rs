@@ -6,6 +6,7 @@ use super::super::escape::for_terminal;
 use super::super::json;
 use super::sentence::{Report, faults, points, sentence, verdict};
 use crate::contest::grade::{Grade, Status};
+use crate::report::number::counted;
 
 #[derive(Serialize)]
 struct Document {
@@ -115,8 +116,10 @@ fn overview(report: &Report<'_>, grade: &Grade) -> String {
     )];
     let counts = grade.matches;
     lines.push(format!(
-        "{} of {} matches finished, {} ended in a fault",
-        counts.finished, counts.planned, counts.faults
+        "{} of {} finished, {} ended in a fault",
+        counts.finished,
+        counted(counts.planned, "match"),
+        counts.faults
     ));
     if let Some(reason) = grade.participation.reason() {
         lines.push(format!(

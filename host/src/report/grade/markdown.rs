@@ -5,6 +5,7 @@ use wasmouse_core::guest_text::GuestStr;
 use super::super::escape::for_terminal;
 use super::sentence::{Report, points, sentence, verdict};
 use crate::contest::grade::{Grade, Status};
+use crate::report::number::counted;
 
 /// What the summary of a step may have, in bytes: GitHub shows nothing of a larger one.
 pub const STEP_SUMMARY_BYTES_MAX: usize = 1 << 20;
@@ -18,7 +19,10 @@ pub fn markdown(report: &Report<'_>, bytes_max: usize) -> String {
     let name = plain(&report.rubric.name);
     let mut text = match report.grades {
         [grade] => format!("## {name}: {}\n\n", verdict(grade)),
-        grades => format!("## {name}: {passed} of {} robots passed\n\n", grades.len()),
+        grades => format!(
+            "## {name}: {passed} of {} passed\n\n",
+            counted(grades.len(), "robot")
+        ),
     };
     let mut parts = Vec::new();
     if report.grades.len() > 1 {
@@ -86,10 +90,10 @@ fn section(report: &Report<'_>, grade: &Grade) -> String {
     }
     for fault in &grade.faults {
         text += &format!(
-            "\nFault {} in {} of {} matches, first in {} with seed {}: {}\n",
+            "\nFault {} in {} of {}, first in {} with seed {}: {}\n",
             plain(fault.kind),
             fault.count,
-            grade.matches.played,
+            counted(grade.matches.played, "match"),
             code(&fault.maze),
             fault.seed,
             code(&fault.message)

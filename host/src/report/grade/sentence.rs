@@ -5,6 +5,7 @@ use wasmouse_core::{GuestText, guest_text};
 use crate::contest::grade::{
     Criterion, CriterionGrade, Expectation, Grade, Missed, Participation, Rubric, Status, Target,
 };
+use crate::report::number::counted;
 
 /// Grades of one rubric.
 #[derive(Clone, Copy, Debug)]
@@ -47,20 +48,25 @@ pub(super) fn sentence(criterion: &Criterion, result: &CriterionGrade) -> GuestT
         Expectation::Measure(target, _) => {
             let measured = measured(*target, found);
             let expected = expected(*target, limit);
-            guest_text!("{} in {}; {}", measured, counted(matches), expected)
+            guest_text!(
+                "{} in {}; {}",
+                measured,
+                counted(matches, "match"),
+                expected
+            )
         }
         Expectation::Beats { robot, .. } => guest_text!(
             "better than `{}` in {} % of {}, where as good counts half; \
              expected at least {} %",
             robot,
             decimal(found),
-            counted(matches),
+            counted(matches, "match"),
             decimal(limit)
         ),
         Expectation::Baseline { .. } => guest_text!(
             "a mean score {} than the baseline in {}; expected {}",
             compared(found),
-            counted(matches),
+            counted(matches, "match"),
             match limit {
                 0 => "no more".to_owned(),
                 1.. => format!("at most {} more", decimal(limit)),
@@ -77,7 +83,7 @@ pub(super) fn sentence(criterion: &Criterion, result: &CriterionGrade) -> GuestT
                 "{} than `{}` in {}, with a mean score {}{}",
                 verdict,
                 robot,
-                counted(matches),
+                counted(matches, "match"),
                 match found {
                     0 => "that is the same".to_owned(),
                     _ => format!("that is {}", compared(found)),
@@ -92,10 +98,10 @@ pub(super) fn sentence(criterion: &Criterion, result: &CriterionGrade) -> GuestT
 pub(super) fn faults(grade: &Grade) -> impl Iterator<Item = GuestText> {
     grade.faults.iter().map(|fault| {
         guest_text!(
-            "{} in {} of {} matches, first in {} with seed {}: {}",
+            "{} in {} of {}, first in {} with seed {}: {}",
             fault.kind,
             fault.count,
-            grade.matches.played,
+            counted(grade.matches.played, "match"),
             fault.maze,
             fault.seed,
             fault.message
@@ -144,13 +150,6 @@ fn compared(difference: i64) -> String {
     match difference {
         0.. => format!("{} higher", decimal(difference)),
         _ => format!("{} lower", decimal(-difference)),
-    }
-}
-
-fn counted(matches: u64) -> String {
-    match matches {
-        1 => "1 match".to_owned(),
-        _ => format!("{matches} matches"),
     }
 }
 

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::super::escape::for_terminal;
 use super::sentence::{Report, faults, points, sentence, verdict};
+use crate::report::number::counted;
 
 /// A block for each robot: its points, and a line for each criterion; a summary when there is
 /// more than one robot.
@@ -38,8 +39,12 @@ pub fn table(report: &Report<'_>) -> String {
     }
     if report.grades.len() > 1 {
         let passed = report.grades.iter().filter(|it| it.is_passed).count();
-        writeln!(text, "{passed} of {} robots passed", report.grades.len())
-            .expect("writing to a string cannot fail");
+        writeln!(
+            text,
+            "{passed} of {} passed",
+            counted(report.grades.len(), "robot")
+        )
+        .expect("writing to a string cannot fail");
     }
     text
 }

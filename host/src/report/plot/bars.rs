@@ -7,11 +7,12 @@ use wasmouse_core::GuestText;
 
 use super::area::Drawn;
 use super::canvas::{Axes, Canvas, Chart, Head, Key, document, pixel};
-use super::data::{Finished, Robots, axis_end, count, in_maze, plain};
+use super::data::{Finished, Robots, axis_end, in_maze, plain};
 use super::error::PlotError;
 use super::look::bar;
 use super::options::Options;
 use crate::contest::ScoreMatrix;
+use crate::report::number::counted;
 
 /// Mazes that have bars of their own, at most; otherwise mazes of one size share them.
 const MAZES_MAX: usize = 8;
@@ -87,7 +88,7 @@ pub(super) fn svg(
         title: measure.title(),
         note: format!(
             "{}; {averages}lower is better; \u{2013} where no match is finished",
-            count(matrix.mazes.len(), "maze")
+            counted(matrix.mazes.len(), "maze")
         ),
         names: robots.names(),
         more: robots.more,

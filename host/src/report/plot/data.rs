@@ -109,16 +109,6 @@ impl Finished<'_> {
     }
 }
 
-/// A number and the noun, in the plural where it has to be.
-pub(super) fn count(number: usize, noun: &str) -> String {
-    let ending = match number {
-        1 => "",
-        _ if noun.ends_with("match") => "es",
-        _ => "s",
-    };
-    format!("{number} {noun}{ending}")
-}
-
 /// A number without decimals, or with those that it has.
 pub(super) fn plain(number: &f64) -> String {
     let text = format!("{number:.2}");
@@ -168,9 +158,5 @@ mod tests {
     fn numbers_have_the_decimals_that_they_need() {
         let texts = [0.0, 20.0, 2.5, -7.0, 0.05].map(|it| plain(&it));
         assert_eq!(texts, ["0", "20", "2.5", "\u{2212}7", "0.05"]);
-        assert_eq!(
-            [count(1, "match"), count(2, "match"), count(0, "maze")],
-            ["1 match", "2 matches", "0 mazes"]
-        );
     }
 }

@@ -1,11 +1,12 @@
 //! The score against fuel: what a better score costs.
 
 use super::canvas::{Axes, Head, Key};
-use super::data::{Robots, axis_end, count, plain};
+use super::data::{Robots, axis_end, plain};
 use super::error::PlotError;
 use super::options::Options;
 use super::runs::{parts, scatter};
 use crate::contest::ScoreMatrix;
+use crate::report::number::counted;
 
 pub(super) fn svg(matrix: &ScoreMatrix, options: &Options) -> Result<String, PlotError> {
     let robots = Robots::new(matrix)?;
@@ -27,7 +28,7 @@ pub(super) fn svg(matrix: &ScoreMatrix, options: &Options) -> Result<String, Plo
         title: "Score and fuel",
         note: format!(
             "{} finished; lower is better, further left is cheaper",
-            count(robots.finished_count(), "match")
+            counted(robots.finished_count(), "match")
         ),
         names: robots.names(),
         more: robots.more,

@@ -4,11 +4,12 @@
 use plotters::prelude::{Color as _, PathElement};
 
 use super::canvas::{Axes, Head, Key, document, pixel};
-use super::data::{Robots, axis_end, count, plain};
+use super::data::{Robots, axis_end, plain};
 use super::error::PlotError;
 use super::look::marker;
 use super::options::Options;
 use crate::contest::ScoreMatrix;
+use crate::report::number::counted;
 
 /// Markers on a line.
 const MARKERS: usize = 8;
@@ -28,7 +29,7 @@ pub(super) fn svg(matrix: &ScoreMatrix, options: &Options) -> Result<String, Plo
         title: "Regret",
         note: format!(
             "share of {} with at most that regret; higher and further left is better",
-            count(played, "match")
+            counted(played, "match")
         ),
         names: robots.names(),
         more: robots.more,

@@ -1,11 +1,12 @@
 //! The exploration run against the speed run: who explores long, and what it gains.
 
 use super::canvas::{Axes, Head, Key, document, pixel};
-use super::data::{Robots, axis_end, count, plain};
+use super::data::{Robots, axis_end, plain};
 use super::error::PlotError;
 use super::look::marker;
 use super::options::Options;
 use crate::contest::ScoreMatrix;
+use crate::report::number::counted;
 use plotters::prelude::Color as _;
 
 /// Points of a robot that are drawn, at most.
@@ -23,7 +24,7 @@ pub(super) fn svg(matrix: &ScoreMatrix, options: &Options) -> Result<String, Plo
         title: "Exploration run and speed run",
         note: format!(
             "{} finished; lower and further left is better",
-            count(robots.finished_count(), "match")
+            counted(robots.finished_count(), "match")
         ),
         names: robots.names(),
         more: robots.more,

@@ -224,7 +224,8 @@ fn a_changed_shard_is_refused_by_name() {
         .expect("a store")
         .seal()
         .expect("written");
-    check_refused(&path, "1 of its records contradict those of `");
+    check_refused(&path, "it has records that contradict those of `");
+    check_refused(&path, "`: 1, the first: ");
     check_refused(
         &path,
         "the first: robot `robot 1`, maze `gen:tree,loops=12:12:2`, seed 6",

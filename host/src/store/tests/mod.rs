@@ -1,5 +1,6 @@
 //! Laws of stores, on contests that are played at random.
 
+mod build;
 mod damage;
 mod merging;
 mod opening;

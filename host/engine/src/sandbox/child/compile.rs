@@ -10,10 +10,10 @@ use super::super::role::{COMPILE_THREADS, Role, SandboxStatus};
 use super::pipes::{Pipes, read_exactly};
 use super::privileges;
 use super::setup::sandboxed;
-use crate::admission::{Rejection, examine, world};
+use crate::admission::{examine, world};
 use crate::error::InfrastructureError;
 use crate::limits::Limits;
-use crate::runtime::{new_backtrace_compiler, new_compiler};
+use crate::runtime::{AdmissionError, new_backtrace_compiler, new_compiler, precompile};
 
 /// Stack of the threads that read and compile: nested things recurse.
 pub(super) const STACK_BYTES: usize = 16 << 20;
@@ -42,7 +42,7 @@ pub fn main() -> io::Result<()> {
         protocol::write(&mut pipes.to, &Hello { build, sandbox })?;
         // The supervisor then knows that the worker had begun, whatever happens next.
         pipes.to.flush()?;
-        let (examined, code) = compile(engine, &file, &order);
+        let (examined, code) = compile(engine, &file, &order)?;
         protocol::write(&mut pipes.to, &examined)?;
         pipes.to.write_all(&code)?;
         pipes.to.flush()
@@ -92,7 +92,11 @@ pub(super) fn start_compilers() -> io::Result<()> {
 }
 
 /// What the file is, and its compiled code where that was wanted and can be had.
-fn compile(engine: &Engine, file: &[u8], order: &CompileOrder) -> (Examined, Vec<u8>) {
+///
+/// # Errors
+///
+/// When the host cannot compile it.
+fn compile(engine: &Engine, file: &[u8], order: &CompileOrder) -> io::Result<(Examined, Vec<u8>)> {
     let examination = examine(file, &order.limits);
     let mut examined = Examined {
         kind: examination.kind,
@@ -101,17 +105,21 @@ fn compile(engine: &Engine, file: &[u8], order: &CompileOrder) -> (Examined, Vec
         result: Compiled::NotWanted,
     };
     let mut code = Vec::new();
-    let compiled = examination.component.and_then(|component| {
+    let compile = || {
+        let component = examination.component?;
         if order.describe {
             examined.wit = world(&component);
         }
         if order.compile {
-            code = precompile(engine, &component)?;
+            code = precompile(engine, &component).map_err(AdmissionError::of_engine)?;
         }
         Ok(())
-    });
-    match compiled {
-        Err(rejection) => examined.result = Compiled::Rejected(rejection.into()),
+    };
+    match compile() {
+        Err(AdmissionError::Host(error)) => return Err(io::Error::other(error)),
+        Err(AdmissionError::Rejected(rejection)) => {
+            examined.result = Compiled::Rejected(rejection.into())
+        }
         Ok(()) if order.compile => {
             examined.result = Compiled::Code {
                 length: u64::try_from(code.len()).unwrap_or(u64::MAX),
@@ -120,12 +128,5 @@ fn compile(engine: &Engine, file: &[u8], order: &CompileOrder) -> (Examined, Vec
         }
         Ok(()) => {}
     }
-    (examined, code)
-}
-
-fn precompile(engine: &Engine, component: &[u8]) -> Result<Vec<u8>, Rejection> {
-    crate::runtime::precompile(engine, component).map_err(|error| Rejection::Invalid {
-        message: format!("{error:#}"),
-        byte: None,
-    })
+    Ok((examined, code))
 }

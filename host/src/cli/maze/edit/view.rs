@@ -6,6 +6,7 @@ use wasmouse_core::maze::{Distances, Heading, Metric, Path, distances_to_goal};
 
 use super::super::super::tui::{Role, Scene, Writer, Zoom, draw_maze, overlay};
 use super::editor::{Asking, Editor, PathShown};
+use crate::report::number::counted;
 use crate::report::text::{Text, text};
 
 /// Columns of the panel beside the maze, at least.
@@ -264,7 +265,11 @@ fn panel(editor: &Editor, writer: &mut Writer<'_>) {
 }
 
 fn length(path: &Path) -> String {
-    format!("{} steps, {} cells", path.steps(), path.cells())
+    format!(
+        "{}, {}",
+        counted(path.steps(), "step"),
+        counted(path.cells(), "cell")
+    )
 }
 
 fn foot(editor: &Editor, writer: &mut Writer<'_>) {

@@ -5,7 +5,8 @@ use maud::{Markup, html};
 use super::parts::{caption, label, more};
 use super::scale::{Scale, extent, percentile};
 use crate::report::contest::view::View;
-use crate::report::contest::words::{NONE, count};
+use crate::report::contest::words::NONE;
+use crate::report::number::counted;
 
 /// Robots that are shown, at most.
 const ROBOTS_MAX: usize = 60;
@@ -110,7 +111,7 @@ fn at(scale: Scale, thousandths: u64) -> String {
 }
 
 fn axis(scale: Scale) -> Markup {
-    let label = format!("Axis from 0 to {}", count(scale.end, "step"));
+    let label = format!("Axis from 0 to {}", counted(scale.end, "step"));
     html! {
         svg.strip.axis role="img" aria-label=(label) {
             @for tick in scale.ticks() {

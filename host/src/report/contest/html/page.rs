@@ -14,7 +14,8 @@ use super::player::{self, Player};
 use super::{boxes, method, pictures, plots, scatter, scores, standings};
 use crate::report::contest::document::ContestReport;
 use crate::report::contest::view::View;
-use crate::report::contest::words::{self, count};
+use crate::report::contest::words;
+use crate::report::number::counted;
 use crate::report::picture::SVG_STYLE;
 
 const STYLE: &str = include_str!("page.css");
@@ -85,9 +86,9 @@ fn page(view: &View<'_>, sections: &[Section], player: Option<&Player>) -> Strin
                 header {
                     h1 { (name) }
                     p.quiet {
-                        (count(view.matrix().robots.len() as u64, "robot")) ", "
-                        (count(view.matrix().mazes.len() as u64, "maze")) ", "
-                        (count(view.matches_played(), "match"))
+                        (counted(view.matrix().robots.len() as u64, "robot")) ", "
+                        (counted(view.matrix().mazes.len() as u64, "maze")) ", "
+                        (counted(view.matches_played(), "match"))
                         "; ruleset " (shown(&report.matrix.rules.name))
                         " version " (report.matrix.rules.version)
                         @if let Some(class) = report.matrix.rules.fuel_class() {

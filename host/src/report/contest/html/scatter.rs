@@ -10,7 +10,7 @@ use super::parts::{more, shown};
 use super::scale::{Scale, extent};
 use crate::contest::Outcome;
 use crate::report::contest::view::View;
-use crate::report::contest::words::count;
+use crate::report::number::counted;
 
 /// Panels at most.
 const ROBOTS_MAX: usize = 12;
@@ -92,7 +92,7 @@ fn averages(runs: &[(u32, u32)]) -> String {
     };
     format!(
         "{}, on average {} + {} steps",
-        count(count_of, "match"),
+        counted(count_of, "match"),
         mean(|it| it.0),
         mean(|it| it.1)
     )

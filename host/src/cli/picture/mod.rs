@@ -1,14 +1,18 @@
 //! `wasmouse picture`: pictures of matches, still and animated.
 
+mod choices;
+
 use std::io::Write;
 use std::path::PathBuf;
-use std::str::FromStr;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressStyle;
 use wasmouse_core::GuestText;
 use wasmouse_core::playback::Playback;
 use wasmouse_core::replay::Replay;
 
+use choices::{OverlayChoice, PictureTheme, StepChoice, StepRange};
+
+use super::bar;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::image_file::{self, Format};
@@ -16,10 +20,10 @@ use super::interrupt;
 use super::output::{self, Draft, Existing, message};
 use super::replays::SourceArgs;
 use crate::report::animation::{self, AnimationError, Frames, Timing};
+use crate::report::number::counted;
 use crate::report::picture::{Sheet, Theme};
 use crate::report::scene::{
-    Film, Overlay, Overlays, POSTER_MAX, SEQUENCE_MAX, Shot, best_of_mazes, poster, sequence,
-    side_by_side,
+    Film, Overlays, POSTER_MAX, SEQUENCE_MAX, Shot, best_of_mazes, poster, sequence, side_by_side,
 };
 use crate::report::text::{Text, text};
 
@@ -103,83 +107,6 @@ pub struct Args {
     /// Overwrite FILE if it exists
     #[arg(long)]
     force: bool,
-}
-
-/// `--step`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum StepChoice {
-    At(usize),
-    Last,
-}
-
-impl FromStr for StepChoice {
-    type Err = &'static str;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        match text {
-            "last" => Ok(Self::Last),
-            _ => text
-                .parse()
-                .map(Self::At)
-                .map_err(|_| "expected a number or `last`"),
-        }
-    }
-}
-
-/// `--steps`: both included.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct StepRange {
-    first: usize,
-    last: Option<usize>,
-}
-
-impl FromStr for StepRange {
-    type Err = &'static str;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let expected = "expected a range such as 10..=40, 10.. or ..=40";
-        let (first, last) = text.split_once("..").ok_or(expected)?;
-        let number = |text: &str| text.parse().map_err(|_| expected);
-        let first = if first.is_empty() { 0 } else { number(first)? };
-        let last = match last.strip_prefix('=') {
-            Some(last) => Some(number(last)?),
-            None if last.is_empty() => None,
-            None => return Err("the last step is included: write ..= before it"),
-        };
-        match last {
-            Some(last) if last < first => Err("the first step is after the last one"),
-            _ => Ok(Self { first, last }),
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum OverlayChoice {
-    /// The path of the speed run, or the last 20 steps of the exploration run
-    Path,
-    /// Only walls that the robot can know of; others are dots
-    Knowledge,
-    /// Only walls that the robot says that it believes in, if its replay has a journal that does
-    Beliefs,
-    /// How often the robot was in each cell
-    Heat,
-    /// The steps from the start to each cell, as heat
-    Costs,
-    /// The steps from each cell to the goal, as numbers
-    Distances,
-    /// An optimal path
-    Optimum,
-    /// What the robot has painted and labelled
-    Journal,
-    /// Nothing
-    None,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum PictureTheme {
-    Auto,
-    Light,
-    Dark,
 }
 
 /// A match with its names.
@@ -340,32 +267,6 @@ impl Loaded {
     }
 }
 
-impl From<PictureTheme> for Theme {
-    fn from(choice: PictureTheme) -> Self {
-        match choice {
-            PictureTheme::Auto => Self::Auto,
-            PictureTheme::Light => Self::Light,
-            PictureTheme::Dark => Self::Dark,
-        }
-    }
-}
-
-impl From<OverlayChoice> for Option<Overlay> {
-    fn from(choice: OverlayChoice) -> Self {
-        Some(match choice {
-            OverlayChoice::Path => Overlay::Path,
-            OverlayChoice::Knowledge => Overlay::Knowledge,
-            OverlayChoice::Beliefs => Overlay::Beliefs,
-            OverlayChoice::Heat => Overlay::Heat,
-            OverlayChoice::Costs => Overlay::Costs,
-            OverlayChoice::Distances => Overlay::Distances,
-            OverlayChoice::Optimum => Overlay::Optimum,
-            OverlayChoice::Journal => Overlay::Journal,
-            OverlayChoice::None => return None,
-        })
-    }
-}
-
 /// The matches of a poster.
 fn best(replays: &[Replay]) -> Result<Vec<&Replay>, Failure> {
     let best = best_of_mazes(replays);
@@ -449,7 +350,8 @@ fn animate(
     // Before there is a file that a signal could leave behind.
     let interrupted = interrupt::listen()?;
     let mut draft = Draft::create(&args.output, Existing::from_flag(args.force))?;
-    let bar = ProgressBar::new(film.len() as u64).with_style(
+    let bar = bar::new(
+        film.len() as u64,
         ProgressStyle::with_template("{bar:40} {pos}/{len} frames, {eta} left")
             .expect("a constant template"),
     );
@@ -478,7 +380,7 @@ fn animate(
                 .flush()
                 .map_err(|error| output::failure(&args.output, &error))?;
             draft.commit()?;
-            message!("wrote {} ({} frames)", path, film.len());
+            message!("wrote {} ({})", path, counted(film.len(), "frame"));
             Ok(Exit::Success)
         }
         Err(AnimationError::Cancelled) => {
@@ -489,28 +391,5 @@ fn animate(
         Err(error) => {
             Err(Failure::usage(error).hint("make it smaller with --width, --steps or --every"))
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ranges_include_their_ends() {
-        let parse = |text: &str| text.parse::<StepRange>();
-        for (text, first, last) in [
-            ("3..=9", 3, Some(9)),
-            ("..=9", 0, Some(9)),
-            ("3..", 3, None),
-        ] {
-            assert_eq!(parse(text), Ok(StepRange { first, last }), "{text}");
-        }
-        for text in ["", "7", "3..9", "9..=3", "a..", "..=", "-1.."] {
-            assert!(parse(text).is_err(), "{text}");
-        }
-        assert_eq!("last".parse(), Ok(StepChoice::Last));
-        assert_eq!("40".parse(), Ok(StepChoice::At(40)));
-        assert!("-1".parse::<StepChoice>().is_err());
     }
 }
