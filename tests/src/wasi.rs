@@ -1,4 +1,4 @@
-//! [`build`]: the parts that keep WASI inside robots, from their sources in
+//! [`build`]: the parts that keep WASI inside of robots, from their sources in
 //! `host/engine/wasi`. `cargo xtask wasi` runs it and writes the manifest.
 
 use std::fmt::Write as _;

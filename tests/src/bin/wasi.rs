@@ -1,4 +1,4 @@
-//! `wasi`: builds what keeps WASI inside robots; `cargo xtask wasi` runs it.
+//! `wasi`: builds what keeps WASI inside of robots; `cargo xtask wasi` runs it.
 
 use std::process::ExitCode;
 
