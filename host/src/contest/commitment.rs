@@ -255,7 +255,7 @@ pub enum Broken {
         name: String,
     },
     /// A set has another number of mazes.
-    #[error("the set `{name}` has {opened} mazes, but {committed} were committed to")]
+    #[error("the set `{name}` has another number of mazes: {opened} instead of {committed}")]
     Mazes {
         /// The set.
         name: String,
@@ -340,7 +340,7 @@ mod tests {
         check_change(
             |it| drop(it.sets[0].mazes.pop()),
             &[
-                "the set `final` has 1 mazes, but 2 were committed to",
+                "the set `final` has another number of mazes: 1 instead of 2",
                 OTHER,
             ],
         );
