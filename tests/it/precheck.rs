@@ -88,6 +88,20 @@ fn bombs_are_rejected_for_what_makes_them_one() {
                 .expect("a core module"),
             "ms of estimated time to compile the file",
         ),
+        // What the allocator of registers goes through for each value that is alive over many blocks.
+        (
+            bombs::with_repeated_functions(&bombs::exits(2297, 10), 26).expect("a core module"),
+            "ms of estimated time to compile the file",
+        ),
+        (
+            bombs::with_repeated_functions(&bombs::held_values(2297, 10, 13, 0), 12)
+                .expect("a core module"),
+            "ms of estimated time to compile the file",
+        ),
+        (
+            bombs::looped_values(10, 7000, 7000),
+            "ms of estimated time to compile a function",
+        ),
         (bombs::empty_functions(1_000_000), "functions"),
         (bombs::long_function(7_600_000), "bytes in a function"),
         (
@@ -186,6 +200,65 @@ fn bombs_are_rejected_for_what_makes_them_one() {
 }
 
 /// Files in which each measure is at least 1.
+/// The estimated milliseconds for a function that keeps ten floats alive over 1,000 exits of a block, with
+/// that code between the exits and the floats' last use.
+fn estimate_with(between: &str) -> u64 {
+    use std::fmt::Write as _;
+
+    let mut text = String::from(
+        "(component (core module (memory 1) (global $sum (mut f64) (f64.const 0))
+           (func $call (loop (br_if 0 (i32.load (i32.const 0)))))
+           (func (param $address i32) (local $carried i32)",
+    );
+    let floats = 0..10;
+    let mut code = String::new();
+    for float in floats.clone() {
+        write!(text, "(local $f{float} f64)").expect("a string");
+        let load = format!("(f64.load offset={} (local.get $address))", 8 * float);
+        write!(code, "(local.set $f{float} {load})").expect("a string");
+    }
+    code.push_str("(block $out ");
+    for exit in 0..1000 {
+        let load = format!("(i32.load offset={exit} (local.get $address))");
+        write!(
+            code,
+            "(local.set $carried {load}) (br_if $out (local.get $address))"
+        )
+        .expect("a string");
+    }
+    write!(
+        code,
+        ") {between} (i32.store (local.get $address) (local.get $carried))"
+    )
+    .expect("a string");
+    for float in floats {
+        let sum = format!("(f64.add (global.get $sum) (local.get $f{float}))");
+        write!(code, "(global.set $sum {sum})").expect("a string");
+    }
+    write!(text, "{code})))").expect("a string");
+    let file = wat::parse_str(text).expect("WebAssembly text");
+    let shape = precheck(&file, &Limits::default()).expect("admitted");
+    shape.measures.get(Measure::Work)
+}
+
+#[test]
+fn only_calls_that_are_made_shorten_the_estimate() {
+    let without = estimate_with("");
+    let with = estimate_with("(call $call)");
+    assert!(with * 2 < without, "{with} ms, and {without} ms without it");
+    for never in [
+        "(if (i32.const 0) (then (call $call)))",
+        "(if (i32.eqz (i32.const 3)) (then (call $call)))",
+        "(block (br_if 0 (i32.const 1)) (call $call))",
+        "(block (br 0) (call $call))",
+        // The floats are not needed there.
+        "(if (local.get $carried) (then (call $call) (return)))",
+    ] {
+        let with = estimate_with(never);
+        assert!(with >= without, "{never}: {with} ms of {without}");
+    }
+}
+
 fn samples() -> Vec<Vec<u8>> {
     vec![
         bombs::branch_tables(30, 30),

@@ -55,6 +55,12 @@ struct Frame {
     values: u64,
     /// Branches to its label.
     branches: u64,
+    /// Those of them that may be taken or not.
+    forks: u64,
+    /// The operator that its label is at.
+    label: u32,
+    /// The operator that ends it.
+    end: u32,
 }
 
 /// The values of one function that are joined and carried.
@@ -64,6 +70,19 @@ pub(super) struct Joins {
     pub(super) joined: u64,
     /// Arguments on all edges for them.
     pub(super) carried: u64,
+}
+
+/// Where paths meet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Meeting {
+    /// The operator at the label that they lead to.
+    pub(super) label: u32,
+    /// The operator after the last branch there.
+    pub(super) end: u32,
+    /// Arguments on all of them.
+    pub(super) carried: u64,
+    /// Those of them on edges from blocks that have other edges too: each such edge has a block.
+    pub(super) forked: u64,
 }
 
 /// The record of one function; reused for the next one, because functions are many.
@@ -82,6 +101,9 @@ pub(super) struct Flow {
     /// For each frame that is a loop, the set of locals that are read after its
     /// beginning, as far as it is known.
     heads: Vec<u64>,
+    /// Operators so far.
+    now: u32,
+    meetings: Vec<Meeting>,
 }
 
 impl Flow {
@@ -93,9 +115,20 @@ impl Flow {
         self.written.clear();
         self.heads.clear();
         self.loops = 0;
+        self.now = 0;
         self.locals = locals;
         self.words = index(locals).div_ceil(64);
         self.open(Construct::Block, results);
+    }
+
+    /// The next operator.
+    pub(super) const fn next(&mut self) {
+        self.now = self.now.saturating_add(1);
+    }
+
+    /// Where paths meet, after they were counted, in no order.
+    pub(super) const fn meetings(&mut self) -> &mut Vec<Meeting> {
+        &mut self.meetings
     }
 
     /// A construct begins whose label takes that many values.
@@ -106,6 +139,9 @@ impl Flow {
             construct,
             values,
             branches: 0,
+            forks: 0,
+            label: self.now,
+            end: self.now,
         });
         self.written.resize(self.written.len() + self.words, 0);
         self.heads.resize(self.heads.len() + self.words, 0);
@@ -123,7 +159,13 @@ impl Flow {
         let Some(frame) = self.open.pop() else {
             return;
         };
-        self.loops -= u32::from(self.frames[index(frame)].construct == Construct::Loop);
+        let closed = &mut self.frames[index(frame)];
+        closed.end = self.now;
+        if closed.construct == Construct::Loop {
+            self.loops -= 1;
+        } else {
+            closed.label = self.now;
+        }
         if let Some(&outer) = self.open.last() {
             merge(&mut self.written, self.words, frame, outer);
         }
@@ -157,11 +199,21 @@ impl Flow {
     /// A branch that may be taken.
     pub(super) fn fork(&mut self, label: u32) {
         self.branch(label, Event::Fork);
+        if let Some(frame) = self.target(label) {
+            self.frames[index(frame)].forks += 1;
+        }
+    }
+
+    /// The construct that many outwards.
+    fn target(&self, label: u32) -> Option<u32> {
+        let position = self.open.len().checked_sub(index(label) + 1);
+        position
+            .and_then(|position| self.open.get(position))
+            .copied()
     }
 
     fn branch(&mut self, label: u32, event: fn(u32) -> Event) {
-        let position = self.open.len().checked_sub(index(label) + 1);
-        if let Some(&frame) = position.and_then(|position| self.open.get(position)) {
+        if let Some(frame) = self.target(label) {
             self.frames[index(frame)].branches += 1;
             self.events.push(event(frame));
         }
@@ -187,12 +239,14 @@ impl Flow {
     /// Goes over the function backwards and counts.
     pub(super) fn count(&mut self) -> Joins {
         let mut heads = std::mem::take(&mut self.heads);
+        let mut meetings = std::mem::take(&mut self.meetings);
         let mut joins = Joins::default();
         for round in 0..=ROUNDS_MAX {
             if round == ROUNDS_MAX {
                 heads.fill(u64::MAX);
             }
-            let mut backwards = Backwards::new(self, &mut heads);
+            meetings.clear();
+            let mut backwards = Backwards::new(self, &mut heads, &mut meetings);
             backwards.walk();
             joins = backwards.joins;
             if !backwards.has_changed {
@@ -200,6 +254,7 @@ impl Flow {
             }
         }
         self.heads = heads;
+        self.meetings = meetings;
         joins
     }
 }
@@ -230,6 +285,7 @@ struct Backwards<'a> {
     labels: Vec<Label>,
     spare: Vec<Vec<u64>>,
     joins: Joins,
+    meetings: &'a mut Vec<Meeting>,
 }
 
 struct Label {
@@ -240,7 +296,7 @@ struct Label {
 }
 
 impl<'a> Backwards<'a> {
-    fn new(flow: &'a Flow, heads: &'a mut [u64]) -> Self {
+    fn new(flow: &'a Flow, heads: &'a mut [u64], meetings: &'a mut Vec<Meeting>) -> Self {
         Self {
             flow,
             heads,
@@ -249,6 +305,7 @@ impl<'a> Backwards<'a> {
             labels: Vec::new(),
             spare: Vec::new(),
             joins: Joins::default(),
+            meetings,
         }
     }
 
@@ -314,7 +371,15 @@ impl<'a> Backwards<'a> {
         let fuel = 1;
         let values = frame.values + if paths > 0 { locals + fuel } else { 0 };
         self.joins.joined += values;
-        self.joins.carried += values.saturating_mul(paths + 1);
+        let carried = values.saturating_mul(paths + 1);
+        self.joins.carried += carried;
+        let skips = frame.construct == Construct::If && label.otherwise.is_none();
+        self.meetings.push(Meeting {
+            label: frame.label,
+            end: frame.end,
+            carried,
+            forked: values.saturating_mul(frame.forks + u64::from(skips)),
+        });
         if frame.construct == Construct::If {
             match &label.otherwise {
                 Some(otherwise) => add(&mut self.live, otherwise),

@@ -3,7 +3,8 @@
 
 use wasmparser::{
     BinaryReader, BlockType, BrTable, CompositeInnerType, FrameKind, FuncToValidate, FuncValidator,
-    FuncValidatorAllocations, FunctionBody, Operator, ValidatorResources, WasmModuleResources,
+    FuncValidatorAllocations, FunctionBody, Operator, ValType, ValidatorResources,
+    WasmModuleResources,
 };
 
 use super::super::rejection::Rejection;
@@ -130,7 +131,9 @@ impl Functions {
         self.flow.begin(locals, results);
         self.depth.begin();
         self.regions.begin();
-        self.pressure.begin(locals);
+        self.pressure.begin(locals, |local| {
+            validator.get_local_type(local).is_some_and(is_float)
+        });
         let mut function = Function {
             validator,
             flow: &mut self.flow,
@@ -190,6 +193,10 @@ impl Function<'_, '_> {
             let code = self.code.get(index(from)..index(to)).unwrap_or_default();
             self.pressure
                 .operator(&operator, code, height, arity, weight.instructions());
+            let result = self.validator.get_operand_type(0).flatten();
+            if arity.1 > 0 && result.is_some_and(is_float) {
+                self.pressure.is_float();
+            }
             let bytes = reader.original_position() - byte;
             self.sizes.deep_bytes += bytes * self.depth.now();
             let operands = u64::from(self.validator.operand_stack_height());
@@ -204,6 +211,7 @@ impl Function<'_, '_> {
     }
 
     fn operator(&mut self, operator: &Operator<'_>, byte: u64) -> Result<(), Rejection> {
+        self.flow.next();
         match operator {
             Operator::Block { blockty } => self.open(Construct::Block, *blockty, 1, byte)?,
             // A loop checks fuel and epoch.
@@ -293,6 +301,7 @@ impl Function<'_, '_> {
     fn blocks(&mut self, number: u64) {
         self.sizes.blocks += number;
         self.sizes.depths += number * self.depth.now();
+        self.pressure.blocks(number);
     }
 
     /// An access to a table, which may call the host. Its values are all new, so it has more of the
@@ -391,7 +400,7 @@ impl Function<'_, '_> {
     /// Estimates what compiling the function takes.
     fn finish(&mut self, byte: u64) -> Result<(), Rejection> {
         self.sizes.joins = self.flow.count();
-        self.sizes.pressed = self.pressure.finish();
+        self.sizes.pressed = self.pressure.finish(self.flow.meetings());
         let carried = self.sizes.joins.carried;
         self.gauge.note(Measure::Carried, carried, byte)?;
         self.sizes.note(self.gauge, byte)
@@ -400,11 +409,16 @@ impl Function<'_, '_> {
 
 /// Parameters and results of a function type.
 pub(super) fn arity_of(ty: &CompositeInnerType) -> (u64, u64) {
-    let count = |types: &[wasmparser::ValType]| u64::try_from(types.len()).unwrap_or(u64::MAX);
+    let count = |types: &[ValType]| u64::try_from(types.len()).unwrap_or(u64::MAX);
     match ty {
         CompositeInnerType::Func(ty) => (count(ty.params()), count(ty.results())),
         _ => (0, 0),
     }
+}
+
+/// Whether a value of that type is in a register for floats and vectors.
+const fn is_float(ty: ValType) -> bool {
+    matches!(ty, ValType::F32 | ValType::F64 | ValType::V128)
 }
 
 fn index(byte: u64) -> usize {

@@ -13,54 +13,29 @@ use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 
 use wasmparser::Operator;
 
-/// Values that find a register, about: some are taken by what each function has.
-const IN_REGISTERS: i64 = 12;
+use super::flow::Meeting;
+use super::value::{Call, index};
+use super::values::{Pressed, Values};
 
 /// Numbered values for which memory is kept from function to function. Emptying a map takes time for
 /// its capacity.
 const NUMBERS_KEPT: usize = 1 << 12;
 
-/// What a function has of values.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Pressed {
-    /// Operators.
-    pub(super) operators: u64,
-    /// The values that are alive at each operator, together.
-    pub(super) alive: u64,
-    /// What is made while more values are alive than there are registers, about in machine
-    /// instructions.
-    pub(super) pressed: u64,
-    /// All that is made.
-    pub(super) made: u64,
-    /// The most that is made while one value is alive, up to a call: a call empties all registers.
-    pub(super) passed_by: u64,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Value {
-    first: u32,
-    last: u32,
-    /// Machine instructions that make it, about.
-    weight: u32,
-    /// Constants are made where they are used.
-    is_constant: bool,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Call {
-    at: u32,
-    /// From here on all paths pass it by.
-    until: u32,
-}
-
-/// Calls that are looked at for one value.
-const CALLS_MAX: usize = 64;
-
 /// A construct that is open.
 #[derive(Clone, Copy, Debug, Default)]
 struct Frame {
+    is_loop: bool,
+    /// Whether several paths meet at its label.
+    is_joined: bool,
+    /// Of an `if`: the compiler decides its condition.
+    is_decided: bool,
+    /// What follows in it may never be reached.
+    is_doubtful: bool,
+    began: u32,
     /// Where its changes of locals begin.
     changes: usize,
+    /// Where those begin that its first branch made, if it is an `if`.
+    changes_before: usize,
     /// Where its calls begin that may be passed by.
     calls: usize,
 }
@@ -71,22 +46,25 @@ pub(super) struct Pressure {
     now: u32,
     operands: Vec<u32>,
     locals: Vec<u32>,
-    values: Vec<Value>,
+    values: Values,
     numbers: HashMap<u64, u32>,
     /// The number of what may have changed memory so far.
     epoch: u32,
     frames: Vec<Frame>,
     /// Locals with the values that they had before.
     changes: Vec<(u32, u32)>,
-    calls: Vec<Call>,
-    curve: Vec<i64>,
-    /// What is made before each operator.
-    made: Vec<u64>,
+    /// Changes that the first branches of open constructs made.
+    changes_before: Vec<(u32, u32)>,
+    /// For each local the construct at whose end it was last given a new value.
+    joined: Vec<u32>,
+    joins: u32,
+    /// Open constructs that are doubtful.
+    doubts: usize,
 }
 
 impl Pressure {
     /// Begins a function with that many locals, parameters among them.
-    pub(super) fn begin(&mut self, locals: u32) {
+    pub(super) fn begin(&mut self, locals: u32, is_float: impl Fn(u32) -> bool) {
         self.now = 0;
         self.operands.clear();
         self.locals.clear();
@@ -94,14 +72,19 @@ impl Pressure {
         self.frames.clear();
         self.changes.clear();
         self.epoch = 0;
-        self.calls.clear();
+        self.changes_before.clear();
+        self.joined.clear();
+        self.joined.resize(index(locals), 0);
+        self.joins = 0;
+        self.doubts = 0;
         if self.numbers.capacity() > NUMBERS_KEPT {
             self.numbers = HashMap::new();
         }
         self.numbers.clear();
         self.frames.push(Frame::default());
-        for _ in 0..locals {
+        for local in 0..locals {
             let value = self.make(0, false);
+            self.values.get_mut(value).is_float = is_float(local);
             self.locals.push(value);
         }
     }
@@ -135,18 +118,45 @@ impl Pressure {
             Operator::Drop => {
                 self.pop();
             }
-            Operator::Block { .. } | Operator::Loop { .. } => self.open(),
+            Operator::Block { .. } => self.open(Frame::default()),
+            Operator::Loop { .. } => self.open(Frame {
+                is_loop: true,
+                ..Frame::default()
+            }),
             Operator::If { .. } => {
                 let condition = self.pop();
                 self.apply(condition);
-                self.open();
+                let is_decided = self.values.get(condition).is_decided;
+                self.open(Frame {
+                    is_joined: true,
+                    is_decided,
+                    is_doubtful: is_decided,
+                    ..Frame::default()
+                });
             }
-            Operator::Else => self.restore(),
+            Operator::Else => {
+                self.otherwise();
+                self.restore();
+            }
             Operator::End => self.close(),
-            Operator::Br { .. }
-            | Operator::BrTable { .. }
-            | Operator::Return
-            | Operator::Unreachable => {
+            Operator::Br { relative_depth } => {
+                self.take(arity.0);
+                self.branch(*relative_depth);
+                self.leave();
+            }
+            Operator::BrIf { relative_depth } => {
+                self.branch(*relative_depth);
+                self.doubt(*relative_depth);
+                self.compute(bytes, arity, weight);
+            }
+            Operator::BrTable { targets } => {
+                self.take(arity.0);
+                for target in targets.targets().flatten().chain([targets.default()]) {
+                    self.branch(target);
+                }
+                self.leave();
+            }
+            Operator::Return | Operator::Unreachable => {
                 self.take(arity.0);
                 self.leave();
             }
@@ -162,43 +172,8 @@ impl Pressure {
     }
 
     /// The function ends.
-    pub(super) fn finish(&mut self) -> Pressed {
-        let operators = usize::try_from(self.now).unwrap_or(0) + 1;
-        self.curve.clear();
-        self.curve.resize(operators + 1, 0);
-        self.made.clear();
-        self.made.resize(operators + 1, 0);
-        let index = |at: u32| usize::try_from(at).unwrap_or(0).min(operators);
-        for value in &self.values {
-            self.made[index(value.first)] += u64::from(value.weight);
-            if !value.is_constant {
-                self.curve[index(value.first)] += 1;
-                self.curve[index(value.last)] -= 1;
-            }
-        }
-        let mut pressed = Pressed {
-            operators: u64::from(self.now),
-            ..Pressed::default()
-        };
-        let mut alive = 0;
-        for (step, made) in self.curve.iter_mut().zip(&mut self.made) {
-            alive += *step;
-            *step = alive;
-            pressed.alive += alive.unsigned_abs();
-            if alive > IN_REGISTERS {
-                pressed.pressed += *made;
-            }
-            pressed.made += std::mem::replace(made, pressed.made);
-        }
-        for value in self.values.iter().filter(|value| !value.is_constant) {
-            let next = self.calls.partition_point(|call| call.at <= value.first);
-            let mut calls = self.calls[next..].iter().take(CALLS_MAX);
-            let call = calls.find(|call| call.at >= value.last || value.last <= call.until);
-            let end = call.map_or(value.last, |call| value.last.min(call.at));
-            let passed = self.made[index(end)] - self.made[index(value.first)];
-            pressed.passed_by = pressed.passed_by.max(passed);
-        }
-        pressed
+    pub(super) fn finish(&mut self, meetings: &mut [Meeting]) -> Pressed {
+        self.values.finish(self.now, meetings)
     }
 
     /// Has as many operands as the validator: code that nothing reaches has any.
@@ -212,14 +187,7 @@ impl Pressure {
     }
 
     fn make(&mut self, weight: u32, is_constant: bool) -> u32 {
-        let value = u32::try_from(self.values.len()).unwrap_or(u32::MAX);
-        self.values.push(Value {
-            first: self.now,
-            last: self.now,
-            weight,
-            is_constant,
-        });
-        value
+        self.values.make(self.now, weight, is_constant)
     }
 
     fn pop(&mut self) -> u32 {
@@ -248,10 +216,7 @@ impl Pressure {
 
     /// A value is used here.
     fn apply(&mut self, value: u32) {
-        let at = usize::try_from(value).ok();
-        if let Some(value) = at.and_then(|at| self.values.get_mut(at)) {
-            value.last = self.now;
-        }
+        self.values.get_mut(value).last = self.now;
     }
 
     /// Uses that many operands and returns them, the last first.
@@ -283,6 +248,16 @@ impl Pressure {
 
     fn compute(&mut self, bytes: &[u8], (taken, given): (u32, u32), weight: u32) {
         let mut on = self.take(taken);
+        // What a branch hands on may be anywhere.
+        if bytes.first() != Some(&0x0d) {
+            for &value in &on {
+                self.values.get_mut(value).computed = self.now;
+            }
+        }
+        let is_decided = on.iter().all(|&it| self.values.get(it).is_decided);
+        for value in &mut on {
+            *value = self.values.get(*value).root;
+        }
         match bytes.first() {
             // Loads, and the SIMD operators, some of which load.
             Some(0x28..=0x35 | 0xfd) if given == 1 => {
@@ -293,15 +268,17 @@ impl Pressure {
             }
             Some(0x45..=0xc4) => {
                 let value = self.number(bytes, &on, weight, false);
+                self.values.get_mut(value).is_decided = is_decided;
                 self.operands.push(value);
                 return;
             }
             // Calls.
             Some(0x10..=0x15) => {
                 self.epoch += 1;
-                self.calls.push(Call {
+                self.values.call(Call {
                     at: self.now,
                     until: u32::MAX,
+                    is_certain: self.doubts == 0,
                 });
             }
             // Everything but reading and writing globals may change memory.
@@ -314,27 +291,116 @@ impl Pressure {
         }
     }
 
-    fn open(&mut self) {
+    /// That many blocks of machine code begin at the operator that is next.
+    pub(super) fn blocks(&mut self, number: u64) {
+        self.values.blocks(self.now.saturating_add(1), number);
+    }
+
+    /// The last result is a float or a vector.
+    pub(super) fn is_float(&mut self) {
+        if let Some(&value) = self.operands.last() {
+            self.values.get_mut(value).is_float = true;
+        }
+    }
+
+    fn open(&mut self, frame: Frame) {
+        self.doubts += usize::from(frame.is_doubtful);
         self.frames.push(Frame {
+            began: self.now,
             changes: self.changes.len(),
-            calls: self.calls.len(),
+            changes_before: self.changes_before.len(),
+            calls: self.values.calls(),
+            ..frame
         });
+    }
+
+    /// A branch to the label that many constructs outwards, on the last operand. If the compiler decides
+    /// it, nothing that follows in all of them may be reached.
+    fn doubt(&mut self, label: u32) {
+        let condition = self.operands.last().map(|&value| self.values.get(value));
+        if condition.is_some_and(|value| value.is_decided) {
+            let inside = self.frames.iter_mut().rev();
+            for frame in inside.take(index(label).saturating_add(1)) {
+                self.doubts += usize::from(!frame.is_doubtful);
+                frame.is_doubtful = true;
+            }
+        }
+    }
+
+    /// A branch to the label that many constructs outwards.
+    fn branch(&mut self, label: u32) {
+        let target = self
+            .frames
+            .len()
+            .checked_sub(index(label).saturating_add(1));
+        if let Some(frame) = target.and_then(|target| self.frames.get_mut(target)) {
+            frame.is_joined = true;
+        }
+    }
+
+    fn otherwise(&mut self) {
+        if let Some(frame) = self.frames.last_mut()
+            && frame.is_doubtful
+            && !frame.is_decided
+        {
+            frame.is_doubtful = false;
+            self.doubts -= 1;
+        }
     }
 
     /// Gives the locals the values that they had where the innermost construct began.
     fn restore(&mut self) {
         let begin = self.frames.last().map_or(0, |frame| frame.changes);
         while self.changes.len() > begin {
-            if let Some((local, value)) = self.changes.pop()
-                && let Ok(local) = usize::try_from(local)
-            {
-                self.locals[local] = value;
+            if let Some((local, value)) = self.changes.pop() {
+                self.locals[index(local)] = value;
+                self.changes_before.push((local, value));
             }
         }
     }
 
+    /// Where paths meet, each local that one of them changed has a new value. A loop hands on the last
+    /// ones to its next round.
     fn close(&mut self) {
-        self.frames.pop();
+        let Some(frame) = self.frames.pop() else {
+            return;
+        };
+        self.doubts -= usize::from(frame.is_doubtful);
+        if !frame.is_joined || self.frames.is_empty() {
+            return;
+        }
+        // The oldest change of a local is the last one there.
+        let before = self.changes_before.drain(frame.changes_before..).rev();
+        self.changes.extend(before);
+        self.joins += 1;
+        let mut kept = frame.changes;
+        for at in frame.changes..self.changes.len() {
+            let (local, previous) = self.changes[at];
+            let last = std::mem::replace(&mut self.joined[index(local)], self.joins);
+            if last == self.joins {
+                continue;
+            }
+            self.changes[kept] = (local, previous);
+            kept += 1;
+            if frame.is_loop {
+                let present = self.locals[index(local)];
+                self.values.get_mut(present).handed_on = self.now;
+                // What the first round has of it is not what the next ones have.
+                let previous = self.values.get_mut(previous);
+                previous.loops = previous.loops.min(frame.began);
+            } else {
+                let is_float = self.values.get(previous).is_float;
+                let present = self.locals[index(local)];
+                let root = self.values.get(present).root;
+                let joined = self.make(0, false);
+                let value = self.values.get_mut(joined);
+                value.joins = Some([present, previous]);
+                value.root = root;
+                value.is_float = is_float;
+                self.locals[index(local)] = joined;
+            }
+        }
+        self.changes.truncate(kept);
     }
 
     /// The code after this is reached by branches only, which pass by the calls of this construct.
@@ -342,11 +408,10 @@ impl Pressure {
         let Some(frame) = self.frames.last_mut() else {
             return;
         };
-        for call in &mut self.calls[frame.calls..] {
-            call.until = call.until.min(self.now);
-        }
+        self.doubts += usize::from(!frame.is_doubtful);
+        frame.is_doubtful = true;
         // Only once, also if what follows and is never reached leaves again.
-        frame.calls = self.calls.len();
+        frame.calls = self.values.leave(frame.calls, self.now);
     }
 }
 
@@ -373,7 +438,7 @@ mod tests {
 
     fn loaded(times: u8, calls: bool) -> Pressed {
         let mut pressure = Pressure::default();
-        pressure.begin(2);
+        pressure.begin(2, |_| false);
         for _ in 0..times {
             for offset in 0..100 {
                 add_loaded(&mut pressure, offset);
@@ -383,7 +448,7 @@ mod tests {
                 pressure.operator(&call, &[0x10, 0], 0, (0, 0), 8);
             }
         }
-        pressure.finish()
+        pressure.finish(&mut [])
     }
 
     #[test]
@@ -410,7 +475,7 @@ mod tests {
     #[test]
     fn a_call_that_is_passed_by_ends_nothing() {
         let mut pressure = Pressure::default();
-        pressure.begin(2);
+        pressure.begin(2, |_| false);
         for _ in 0..4 {
             for offset in 0..100 {
                 add_loaded(&mut pressure, offset);
@@ -423,7 +488,7 @@ mod tests {
             pressure.operator(&Operator::Unreachable, nothing, 0, (0, 0), 0);
             pressure.operator(&Operator::End, nothing, 0, (0, 0), 0);
         }
-        let passed = pressure.finish();
+        let passed = pressure.finish(&mut []);
         assert!(passed.passed_by > 800, "{passed:?}");
     }
 }

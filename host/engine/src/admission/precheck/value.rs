@@ -1,0 +1,83 @@
+//! [`Value`] and [`Call`]: what `pressure` records of a function.
+
+/// A value, with where it is made and used: numbers of operators.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Value {
+    pub(super) first: u32,
+    pub(super) last: u32,
+    /// Where it is used last by something that needs it in a register.
+    pub(super) computed: u32,
+    /// Its last use as an argument of a block: where paths meet, or the next round of a loop begins.
+    pub(super) handed_on: u32,
+    /// Machine instructions that make it, about.
+    pub(super) weight: u32,
+    /// Constants are made where they are used.
+    pub(super) is_constant: bool,
+    /// The compiler can compute it, and decide branches on it.
+    pub(super) is_decided: bool,
+    pub(super) is_float: bool,
+    /// The value that it is taken for when operators on equal values are looked up.
+    pub(super) root: u32,
+    /// Of a block parameter: two of its arguments, the last one in the code first.
+    pub(super) joins: Option<[u32; 2]>,
+    /// Start of the outermost loop that writes its local: a block parameter from there on.
+    pub(super) loops: u32,
+}
+
+impl Value {
+    /// In no loop.
+    pub(super) const NO_LOOP: u32 = u32::MAX;
+
+    /// One that is made at an operator, with that number.
+    pub(super) const fn new(at: u32, weight: u32, is_constant: bool, number: u32) -> Self {
+        Self {
+            first: at,
+            last: at,
+            computed: at,
+            handed_on: 0,
+            weight,
+            is_constant,
+            is_decided: is_constant,
+            is_float: false,
+            root: number,
+            joins: None,
+            loops: Self::NO_LOOP,
+        }
+    }
+
+    pub(super) fn is_used(&self) -> bool {
+        self.last.max(self.handed_on) > self.first
+    }
+
+    /// Where it is live as a block parameter (`joined`), or as anything else: from and to, which are
+    /// equal if it never is.
+    pub(super) fn alive(&self, joined: bool) -> (u32, u32) {
+        let last = self.last.max(self.handed_on);
+        match (self.joins.is_some(), joined) {
+            (true, true) => (self.first, last),
+            (true, false) => (last, last),
+            (false, true) => (self.loops.min(last), last),
+            (false, false) => (self.first, self.loops.min(last)),
+        }
+    }
+}
+
+/// A call.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Call {
+    pub(super) at: u32,
+    /// From here on all paths pass it by.
+    pub(super) until: u32,
+    /// Whether it depends on nothing that the compiler decides: what is never made, it drops.
+    pub(super) is_certain: bool,
+}
+
+impl Call {
+    /// Calls that are looked at for one value.
+    pub(super) const LOOKED_AT: usize = 64;
+}
+
+/// The index of what has that number.
+pub(super) fn index(number: u32) -> usize {
+    usize::try_from(number).unwrap_or(usize::MAX)
+}
