@@ -62,6 +62,8 @@ pub fn run(root: &Path, target: Option<&str>, minutes: u64) -> Result<(), String
     if package == SEARCHES {
         return as_test("search")
             .env("WASMOUSE_FUZZ_SECONDS", seconds)
+            // As many as compile in the program.
+            .env("RAYON_NUM_THREADS", "2")
             .run();
     }
     if !has_cargo_fuzz() {

@@ -7,7 +7,7 @@ use wasmouse_engine::Limits;
 
 use super::candidate::Candidate;
 use super::generators::GENERATORS;
-use super::measure::{Cost, cost, estimate};
+use super::measure::{Cost, Threads, cost, estimate};
 
 /// Below this the time says nothing, in estimated seconds.
 const ESTIMATE_MIN: f64 = 0.05;
@@ -208,7 +208,7 @@ impl Climb {
             if estimate > self.estimate_max {
                 continue;
             }
-            let Some(cost) = cost(&file, estimate, &self.limits) else {
+            let Some(cost) = cost(&file, estimate, &self.limits, Threads::One) else {
                 continue;
             };
             worst.note(&candidate.to_string(), &cost);
@@ -219,8 +219,8 @@ impl Climb {
         }
     }
 
-    /// Compiles as much as is admitted of a file: the functions of its last module again and
-    /// again, or else copies of that module.
+    /// Compiles as much as is admitted of a file, on as many threads as the program does: the functions
+    /// of its last module again and again, or else copies of that module.
     fn fill(&self, candidate: &Candidate, worst: &mut Worst) {
         let estimate = |candidate: &Candidate| Some(self.admitted(candidate)?.1);
         let once = estimate(&candidate.repeated(1));
@@ -240,7 +240,7 @@ impl Climb {
                 let Some((file, estimate)) = self.admitted(&candidate) else {
                     continue;
                 };
-                if let Some(cost) = cost(&file, estimate, &self.limits) {
+                if let Some(cost) = cost(&file, estimate, &self.limits, Threads::All) {
                     worst.note(&candidate.to_string(), &cost);
                 }
                 return;

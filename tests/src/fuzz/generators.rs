@@ -22,12 +22,14 @@ macro_rules! generator {
     };
 }
 
-pub(super) const GENERATORS: [Generator; 35] = [
+pub(super) const GENERATORS: [Generator; 37] = [
     generator!(nested_loops(0 = 20)),
     generator!(nested_blocks(0 = 500)),
     generator!(locals_and_branches(0 = 300, 1 = 1000)),
     generator!(branch_tables(0 = 10, 1 = 300)),
     generator!(exits(0 = 300, 1 = 10)),
+    generator!(held_values(0 = 300, 1 = 10, 2 = 10, 3 = 0)),
+    generator!(looped_values(0 = 10, 1 = 300, 2 = 300)),
     generator!(typed_blocks(0 = 300, 1 = 3)),
     generator!(indirect_calls(0 = 2000)),
     generator!(stacked_values(0 = 100, 1 = 100)),

@@ -1,6 +1,7 @@
-//! What compiling a file takes on one thread.
+//! What compiling a file takes.
 
 use std::fs;
+use std::path::Path;
 use std::sync::LazyLock;
 use std::time::Instant;
 
@@ -20,6 +21,16 @@ pub(super) struct Cost {
     pub(super) memory_mib: u64,
 }
 
+/// How a file is compiled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Threads {
+    /// On the calling thread, whatever else the process does.
+    One,
+    /// On all threads of the compiler, which have to be those of a compile worker and be all that the
+    /// process does.
+    All,
+}
+
 /// Estimated seconds of a file; `None` when it is not admitted.
 pub(super) fn estimate(file: &[u8], limits: &Limits) -> Option<f64> {
     let shape = precheck(file, limits).ok()?;
@@ -34,26 +45,26 @@ pub(super) fn estimate(file: &[u8], limits: &Limits) -> Option<f64> {
 /// # Panics
 ///
 /// When the engine refuses to load what it has compiled, which admission has to know before.
-pub(super) fn cost(file: &[u8], estimate: f64, limits: &Limits) -> Option<Cost> {
-    let cost = cost_once(file, estimate, limits)?;
+pub(super) fn cost(file: &[u8], estimate: f64, limits: &Limits, threads: Threads) -> Option<Cost> {
+    let cost = cost_once(file, estimate, limits, threads)?;
     if cost.cpu_seconds <= estimate {
         return Some(cost);
     }
-    let again = cost_once(file, estimate, limits)?;
+    let again = cost_once(file, estimate, limits, threads)?;
     Some(Cost {
         cpu_seconds: again.cpu_seconds.min(cost.cpu_seconds),
         ..again
     })
 }
 
-fn cost_once(component: &[u8], estimate: f64, limits: &Limits) -> Option<Cost> {
+fn cost_once(component: &[u8], estimate: f64, limits: &Limits, threads: Threads) -> Option<Cost> {
     // One for each file, as in the host: the compiler of an engine keeps tables that make a function
     // take longer after a large one, also one of another file.
-    let engine = engine(limits);
+    let engine = engine(limits, threads);
     reset_peak();
-    let begin = cpu_seconds();
+    let begin = cpu_seconds(threads);
     let compiled = Component::from_binary(&engine, component);
-    let cpu_seconds = cpu_seconds() - begin;
+    let cpu_seconds = cpu_seconds(threads) - begin;
     match compiled {
         Ok(_) => Some(Cost {
             estimate,
@@ -68,21 +79,35 @@ fn cost_once(component: &[u8], estimate: f64, limits: &Limits) -> Option<Cost> {
     }
 }
 
-/// An engine like that of the host, which compiles on the thread that calls it.
-fn engine(limits: &Limits) -> Engine {
+/// An engine like that of the host.
+fn engine(limits: &Limits, threads: Threads) -> Engine {
     let mut config = engine_config(limits, 1);
-    config.parallel_compilation(false);
+    config.parallel_compilation(threads == Threads::All);
     Engine::new(&config).expect("address space for one match")
 }
 
-/// Processor time of this thread so far. Where the system does not say, the time of day has to
-/// do.
-fn cpu_seconds() -> f64 {
+/// Processor time so far, of this thread or of the process. Where the system does not say, the time of
+/// day has to do.
+fn cpu_seconds(threads: Threads) -> f64 {
     static BEGIN: LazyLock<Instant> = LazyLock::new(Instant::now);
-    let nanoseconds = fs::read_to_string("/proc/thread-self/schedstat")
-        .ok()
-        .and_then(|text| text.split_whitespace().next()?.parse::<f64>().ok());
-    nanoseconds.map_or_else(|| BEGIN.elapsed().as_secs_f64(), |ns| ns / 1e9)
+    let seconds = match threads {
+        Threads::One => of_thread("/proc/thread-self/schedstat"),
+        Threads::All => of_all_threads(),
+    };
+    seconds.unwrap_or_else(|| BEGIN.elapsed().as_secs_f64())
+}
+
+fn of_all_threads() -> Option<f64> {
+    let threads = fs::read_dir("/proc/self/task").ok()?;
+    threads
+        .map(|thread| of_thread(thread.ok()?.path().join("schedstat")))
+        .sum()
+}
+
+fn of_thread(schedstat: impl AsRef<Path>) -> Option<f64> {
+    let text = fs::read_to_string(schedstat).ok()?;
+    let nanoseconds: f64 = text.split_whitespace().next()?.parse().ok()?;
+    Some(nanoseconds / 1e9)
 }
 
 /// Has the system forget the most memory that this process ever had.
