@@ -1,26 +1,22 @@
 //! From what users write for a maze to mazes, the same in every command.
 //!
-//! An argument is resolved to [`Source`]s without reading any of them. Then each source is
-//! read, parsed and, unless the user says `--lenient`, checked against the contest rules.
+//! An argument is resolved to [`Source`]s without reading any of them (`maze_source`). Then each source
+//! is read, parsed and, unless the user says `--lenient`, checked against the contest rules.
 
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
-use std::fs;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
-use wasmouse_core::maze::format::{self, Format, ParseError, Parsed, TEXT_BYTES_MAX};
-use wasmouse_core::maze::generate::{GenSpec, GeneratedMaze};
-use wasmouse_core::maze::{BundledMaze, Maze, bundled, violations};
+use wasmouse_core::maze::generate::GeneratedMaze;
+use wasmouse_core::maze::{Maze, violations};
 use wasmouse_core::{Digest, GuestText};
 
 use super::failure::Failure;
-use super::input;
+use super::maze_source::{Source, resolve};
 use super::output::message;
 use crate::contest::MazeSource;
-use crate::contest::config::suggestion;
-use crate::report::text::{Text, text};
+use crate::report::text::text;
 
 /// What a user may write for a maze, for the long help of every command.
 pub const SPECIFICATION_HELP: &str = "\
@@ -35,12 +31,6 @@ A maze is one of, in this order:
   mazes          a folder: all its .txt, .map, .maz and .num files by name,
                  without subfolders and hidden files
 Write ./NAME for a file or folder that is named like one of the others.";
-
-/// The endings of file names that count as mazes in a folder.
-const EXTENSIONS: [&str; 4] = ["txt", "map", "maz", "num"];
-
-/// The name and specification of standard input.
-const STDIN: &str = "-";
 
 /// Which mazes may pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -140,7 +130,7 @@ pub fn load_requests(
 ) -> Result<Vec<Option<MazeSource>>, Failure> {
     let names = unique_names(requests.iter().map(|it| &it.source));
     let load = |(request, name): (&Request, GuestText)| {
-        let loaded = request.source.load(name, request.rules, hint);
+        let loaded = load_one(&request.source, name, request.rules, hint);
         match loaded {
             Err(failure) if request.bad_files == BadFiles::Skip => {
                 message!("warning: skipped a maze: {}", failure.message());
@@ -150,6 +140,25 @@ pub fn load_requests(
         }
     };
     requests.iter().zip(names).map(load).collect()
+}
+
+/// Reads a maze for a contest under that name.
+fn load_one(
+    source: &Source,
+    name: GuestText,
+    rules: Legality,
+    hint: &'static str,
+) -> Result<MazeSource, Failure> {
+    // Generated mazes are legal by construction.
+    if let Source::Generated(maze) = source {
+        return Ok(MazeSource::Generated(*maze));
+    }
+    let (maze, _) = source.read()?;
+    if rules == Legality::Contest {
+        require_legal(source, &maze, hint)?;
+    }
+    let maze = Arc::new(maze);
+    Ok(MazeSource::Loaded { name, maze })
 }
 
 /// The mazes without those that are given twice: their matches would be the same matches.
@@ -225,138 +234,6 @@ pub fn load_all(arguments: &[String], rules: Legality) -> Result<Vec<NamedMaze>,
     Ok(named.collect())
 }
 
-/// One maze that an argument names, not yet read.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Source {
-    /// A generated maze.
-    Generated(GeneratedMaze),
-    /// A maze that comes with wasmouse.
-    Bundled(&'static BundledMaze),
-    /// A file.
-    File(PathBuf),
-    /// Standard input, to its end.
-    Stdin,
-}
-
-/// Whether a specification was written with a maze in mind, right or wrong.
-pub fn is_meant_by(spec: &str) -> bool {
-    let is_bundled = bundled().iter().any(|maze| maze.name == spec);
-    spec == STDIN || is_bundled || GenSpec::is_meant_by(spec) || Path::new(spec).exists()
-}
-
-/// The sources that one specification names: one, or all mazes of a folder.
-///
-/// # Errors
-///
-/// When it names nothing, a `gen:` specification is wrong, or a folder cannot be listed or has no
-/// mazes.
-pub fn resolve(spec: &str) -> Result<Vec<Source>, Failure> {
-    if spec == STDIN {
-        return Ok(vec![Source::Stdin]);
-    }
-    if GenSpec::is_meant_by(spec) {
-        return generated(spec);
-    }
-    if let Some(maze) = bundled().iter().find(|maze| maze.name == spec) {
-        return Ok(vec![Source::Bundled(maze)]);
-    }
-    at_path(Path::new(spec))?.ok_or_else(|| unknown(spec))
-}
-
-/// The source at a path, or all mazes of a folder; `None` if nothing is there.
-///
-/// # Errors
-///
-/// When it cannot be read, or is a folder without mazes.
-pub fn at_path(path: &Path) -> Result<Option<Vec<Source>>, Failure> {
-    match fs::metadata(path) {
-        Ok(metadata) if metadata.is_dir() => folder(path).map(Some),
-        Ok(_) => Ok(Some(vec![Source::File(path.to_owned())])),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(unreadable(path, &error)),
-    }
-}
-
-impl Source {
-    /// What messages and listings call it: the name, the path, or `-`.
-    pub fn label(&self) -> GuestText {
-        match self {
-            Self::Generated(maze) => maze.to_string().into(),
-            Self::Bundled(maze) => maze.name.into(),
-            Self::File(path) => shown(path).into(),
-            Self::Stdin => STDIN.into(),
-        }
-    }
-
-    /// Reads the maze; the format is `None` when it did not come from text.
-    ///
-    /// # Errors
-    ///
-    /// When it cannot be read or is no maze.
-    pub fn read(&self) -> Result<(Maze, Option<Format>), Failure> {
-        let bytes = match self {
-            Self::Generated(maze) => return Ok((maze.generate(), None)),
-            Self::Bundled(maze) => maze.text.as_bytes().to_vec(),
-            Self::File(path) => input::read_file(path, TEXT_BYTES_MAX as u64)
-                .map_err(|error| unreadable(path, &error))?,
-            Self::Stdin => input::read_stdin(TEXT_BYTES_MAX as u64)
-                .map_err(|error| unreadable(Path::new(STDIN), &error))?,
-        };
-        let Parsed { format, maze } = self.parse(bytes)?;
-        Ok((maze, Some(format)))
-    }
-
-    /// The maze for a contest under that name.
-    fn load(
-        &self,
-        name: GuestText,
-        rules: Legality,
-        hint: &'static str,
-    ) -> Result<MazeSource, Failure> {
-        // Generated mazes are legal by construction.
-        if let Self::Generated(maze) = self {
-            return Ok(MazeSource::Generated(*maze));
-        }
-        let (maze, _) = self.read()?;
-        if rules == Legality::Contest {
-            require_legal(self, &maze, hint)?;
-        }
-        let maze = Arc::new(maze);
-        Ok(MazeSource::Loaded { name, maze })
-    }
-
-    fn parse(&self, bytes: Vec<u8>) -> Result<Parsed, Failure> {
-        let failed = |reason: &dyn std::fmt::Display| {
-            Failure::input(format!(
-                "failed to parse maze `{}`: {reason}",
-                self.label().escaped()
-            ))
-        };
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let place = error.utf8_error().valid_up_to();
-            failed(&format!("byte {place} is not UTF-8"))
-                .hint("save the file as UTF-8 or ASCII text")
-        })?;
-        format::parse(&text).map_err(|error| match &error {
-            ParseError::Unrecognized { .. } => {
-                failed(&error).hint("`wasmouse maze convert --help` describes the formats")
-            }
-            _ => failed(&error),
-        })
-    }
-
-    /// What results call it, if nothing else is called so.
-    pub fn short_name(&self) -> GuestText {
-        match self {
-            Self::File(path) => path
-                .file_stem()
-                .map_or_else(|| shown(path), |stem| shown(Path::new(stem)))
-                .into(),
-            Self::Generated(_) | Self::Bundled(_) | Self::Stdin => self.label(),
-        }
-    }
-}
-
 /// The short names, or the labels of those sources that share a short name with another.
 fn unique_names<'a>(sources: impl Iterator<Item = &'a Source> + Clone) -> Vec<GuestText> {
     let mut labels: BTreeMap<GuestText, BTreeSet<GuestText>> = BTreeMap::new();
@@ -373,48 +250,6 @@ fn unique_names<'a>(sources: impl Iterator<Item = &'a Source> + Clone) -> Vec<Gu
         _ => source.label(),
     };
     sources.map(unique).collect()
-}
-
-/// What a text that begins with `gen:` stands for.
-///
-/// # Errors
-///
-/// When it is no specification: an input like any other, wherever it stands.
-pub fn specification(spec: &str) -> Result<GenSpec, Failure> {
-    spec.parse().map_err(|error| {
-        Failure::input(format!(
-            "failed to generate `{}`: {error}",
-            shown(Path::new(spec))
-        ))
-    })
-}
-
-fn generated(spec: &str) -> Result<Vec<Source>, Failure> {
-    let mazes = specification(spec)?.expand();
-    Ok(mazes.map(Source::Generated).collect())
-}
-
-fn folder(path: &Path) -> Result<Vec<Source>, Failure> {
-    let files = input::list(path, is_maze_file).map_err(|error| unreadable(path, &error))?;
-    if files.is_empty() {
-        let message = format!("folder `{}` has no mazes", shown(path));
-        let hint = format!("mazes end in .{}", EXTENSIONS.join(", ."));
-        return Err(Failure::input(message).hint(hint));
-    }
-    Ok(files.into_iter().map(Source::File).collect())
-}
-
-/// Whether a file of a folder is taken for a maze: by the ending of its name.
-pub fn is_maze_file(path: &Path) -> bool {
-    let is_hidden = path
-        .file_name()
-        .is_some_and(|name| name.as_encoded_bytes().starts_with(b"."));
-    let has_extension = path.extension().is_some_and(|extension| {
-        EXTENSIONS
-            .iter()
-            .any(|known| extension.eq_ignore_ascii_case(known))
-    });
-    has_extension && !is_hidden
 }
 
 fn require_legal(source: &Source, maze: &Maze, hint: &'static str) -> Result<(), Failure> {
@@ -435,29 +270,13 @@ fn require_legal(source: &Source, maze: &Maze, hint: &'static str) -> Result<(),
     Err(Failure::input(message).hint(hint))
 }
 
-fn unreadable(path: &Path, error: &io::Error) -> Failure {
-    input::failure("maze", path, error)
-}
-
-fn unknown(spec: &str) -> Failure {
-    let message = format!(
-        "unknown maze `{}`: no bundled maze, file or folder has this name",
-        shown(Path::new(spec))
-    );
-    let names = bundled().iter().map(|maze| maze.name);
-    Failure::input(message).hint(suggestion(spec, names.clone()).unwrap_or_else(|| {
-        let names: Vec<&str> = names.collect();
-        format!("bundled mazes are {}", names.join(", "))
-    }))
-}
-
-/// A path for people.
-fn shown(path: &Path) -> String {
-    Text::of_path(path).as_str().to_owned()
-}
-
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
+    use wasmouse_core::maze::bundled;
+    use wasmouse_core::maze::format::TEXT_BYTES_MAX;
+
     use super::*;
 
     const OFFICIAL: &str = "test_maze_01";

@@ -28,6 +28,7 @@ mod keep;
 mod log;
 mod man;
 mod maze;
+mod maze_source;
 mod mazes;
 mod new;
 mod output;

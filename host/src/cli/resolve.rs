@@ -14,7 +14,7 @@ use wasmouse_engine::Trust;
 use wasmouse_engine::bundled::{BundledRobot, bundled as bundled_robots};
 
 use super::failure::Failure;
-use super::mazes::{self, Source};
+use super::maze_source::{self, Source};
 use super::robots;
 use crate::contest::{MazeEntry, MazeSource, RobotEntry};
 use crate::report::text::{Text, text};
@@ -154,7 +154,7 @@ impl Mazes {
         };
         for argument in arguments {
             let is_folder = Path::new(argument).is_dir();
-            for source in mazes::resolve(argument)? {
+            for source in maze_source::resolve(argument)? {
                 match source.read() {
                     Ok((maze, _)) => mazes.add(&source, maze),
                     Err(_) if is_folder => {}

@@ -11,6 +11,7 @@ use wasmouse_engine::LocalExecutor;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::keep::{KeepArgs, ReplaySink};
+use super::maze_source;
 use super::mazes::{self, BadFiles, Legality};
 use super::output::{self, Draft, Existing, Stdout, message};
 use super::page::PageBuilder;
@@ -261,7 +262,10 @@ impl Args {
     }
 
     fn no_robot(&self) -> Failure {
-        let unknown = self.arguments.iter().find(|it| !mazes::is_meant_by(it));
+        let unknown = self
+            .arguments
+            .iter()
+            .find(|it| !maze_source::is_meant_by(it));
         match unknown {
             None => {
                 let is_folder = |it: &&String| Path::new(it).is_dir();

@@ -11,7 +11,8 @@ use wasmouse_core::maze::generate::GenSpec;
 use wasmouse_core::{Digest, GuestText};
 
 use super::super::failure::Failure;
-use super::super::mazes::{self, BadFiles, Legality, Request, Source};
+use super::super::maze_source::{self, Source};
+use super::super::mazes::{self, BadFiles, Legality, Request};
 use super::super::output::message;
 use super::super::pattern;
 use super::super::project;
@@ -221,7 +222,7 @@ pub fn all_mazes(contest: &ContestFolder) -> Result<Vec<ResolvedSet>, Failure> {
         for (index, path) in entry.paths.iter().enumerate() {
             // No two paths generate the same maze: the parser has seen to that.
             if GenSpec::is_meant_by(path.as_str()) {
-                let generated = mazes::specification(path.as_str())?.expand();
+                let generated = maze_source::specification(path.as_str())?.expand();
                 mazes.extend(generated.map(MazeSource::Generated));
             }
             while let Some((maze, _)) = loaded.next_if(|(_, origin)| *origin == (set, index)) {
@@ -294,7 +295,7 @@ fn maze_sources(
         return Ok(vec![Source::Bundled(maze)]);
     }
     if path.is_pattern() {
-        let is_maze = |it: &Path| mazes::is_maze_file(it) && it.is_file();
+        let is_maze = |it: &Path| maze_source::is_maze_file(it) && it.is_file();
         let found = pattern::matches(contest.folder(), text, is_maze)
             .map_err(|error| unreadable(contest, key, path, &error))?;
         if found.is_empty() {
@@ -302,7 +303,7 @@ fn maze_sources(
         }
         return Ok(found.into_iter().map(Source::File).collect());
     }
-    mazes::at_path(&contest.join(path))?.ok_or_else(|| {
+    maze_source::at_path(&contest.join(path))?.ok_or_else(|| {
         let names = bundled_mazes().iter().map(|maze| maze.name);
         let hint = suggestion(text, names)
             .unwrap_or_else(|| "paths are relative to the folder of the contest file".to_owned());

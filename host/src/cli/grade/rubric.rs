@@ -9,6 +9,7 @@ use wasmouse_core::{Digest, GuestText};
 
 use super::super::failure::Failure;
 use super::super::input;
+use super::super::maze_source;
 use super::super::mazes::{self, BadFiles, Legality, Request};
 use super::check;
 use crate::contest::MazeSource;
@@ -139,7 +140,7 @@ impl RubricFile {
                     let hint = suggestion(spec, bundled().iter().map(|it| it.name));
                     return Err(self.error(&key, &message, hint));
                 };
-                let sources = mazes::resolve(&found)
+                let sources = maze_source::resolve(&found)
                     .map_err(|failure| self.error(&key, failure.message().as_str(), None))?;
                 for source in sources {
                     requests.push(Request {

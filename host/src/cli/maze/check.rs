@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use super::super::exit::Exit;
 use super::super::failure::Failure;
-use super::super::mazes::{self, Source};
+use super::super::maze_source::{self, Source};
+use super::super::mazes;
 use super::super::output::{self, message};
 use crate::report::maze_check::{CheckedMaze, MazeCheck};
 use crate::report::text::Text;
@@ -77,7 +78,7 @@ pub fn run(args: Args) -> Result<Exit, Failure> {
 }
 
 fn check(spec: &str) -> Vec<Checked> {
-    match mazes::resolve(spec) {
+    match maze_source::resolve(spec) {
         Ok(sources) => sources.iter().map(check_source).collect(),
         Err(failure) => vec![Checked {
             label: Text::of_path(spec).as_str().into(),

@@ -7,7 +7,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use super::super::exit::Exit;
 use super::super::failure::Failure;
 use super::super::interrupt;
-use super::super::mazes;
+use super::super::maze_source;
 use super::super::output::{self, Existing, message};
 use crate::report::number::counted;
 use crate::report::text::{Text, text};
@@ -110,7 +110,7 @@ fn specification(args: &Args) -> Result<GenSpec, Failure> {
             );
             return Err(Failure::usage(message).hint("put it into the specification"));
         }
-        return mazes::specification(&args.kind);
+        return maze_source::specification(&args.kind);
     }
     let size = args.size.unwrap_or(16);
     let first = args.seed.unwrap_or(1);

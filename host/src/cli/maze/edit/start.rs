@@ -9,7 +9,7 @@ use wasmouse_core::maze::{Area, Cell, DIMENSIONS, Heading, Maze, Walls, bundled,
 
 use super::super::super::exit::Exit;
 use super::super::super::failure::Failure;
-use super::super::super::mazes;
+use super::super::super::maze_source;
 use super::super::super::terminal;
 use super::super::super::tui::{self, Look};
 use super::editor::Editor;
@@ -118,7 +118,7 @@ fn new_maze(from: &str) -> Result<Maze, Failure> {
             ))
         });
     }
-    let sources = mazes::resolve(from)?;
+    let sources = maze_source::resolve(from)?;
     let [source] = &sources[..] else {
         return Err(Failure::usage(text!(
             "a new maze is a copy of one maze, and `{}` names {}",
