@@ -7,13 +7,14 @@ use wasmouse_core::record::trace;
 use wasmouse_engine::bundled::bundled as bundled_robots;
 
 use super::complaints;
+use super::entrants;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::mazes::{self, BadFiles, Legality};
 use super::output::{self, Draft, Existing};
 use super::page::PageBuilder;
 use super::play::{Pace, play_all};
-use super::robots::{self, RobotSpec};
+use super::robots::RobotSpec;
 use super::setup::SetupArgs;
 use super::terminal;
 use super::verdict::{exit, print_faults};
@@ -59,7 +60,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         .map(|maze| maze.name.to_owned())
         .collect();
     let plan = Plan {
-        entrants: robots::load(&robots, &executor)?,
+        entrants: entrants::load(&robots, &executor)?,
         mazes: mazes::load(&mazes, Legality::Contest, BadFiles::Fail)?,
         seeds: Seeds { first: 0, count: 1 },
         rules: executor.rules().clone(),

@@ -2,6 +2,7 @@
 
 use wasmouse_engine::sandbox::SandboxStatus;
 
+use super::entrants;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::output;
@@ -54,8 +55,8 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     let bytes = spec.read(executor.limits().admission.component_bytes_max)?;
     let inspection = executor
         .inspect(&bytes, spec.trust())
-        .map_err(|error| robots::setup_failure(&error))?;
-    robots::warn_about_sandbox(&executor);
+        .map_err(|error| entrants::setup_failure(&error))?;
+    entrants::warn_about_sandbox(&executor);
     let report = InspectionReport::new(&args.robot, &inspection, executor.limits());
     if args.json {
         output::print(&report.to_json())?;

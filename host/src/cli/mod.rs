@@ -15,6 +15,7 @@ mod contest;
 mod demo;
 mod doctor;
 mod drive;
+mod entrants;
 mod exit;
 mod explain;
 mod fail_under;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use wasmouse_engine::Executor as _;
 
+use super::entrants;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::mazes::{self, BadFiles, Legality};
@@ -102,7 +103,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     let executor = args
         .setup
         .executor_for_all(&args.isolation, &TimeArgs::default())?;
-    let entrants = robots::load(&specs, &executor)?;
+    let entrants = entrants::load(&specs, &executor)?;
     let plan = Plan {
         mazes: vec![mazes.remove(0)],
         entrants,

@@ -10,12 +10,13 @@ use std::io;
 use wasmouse_core::GuestText;
 use wasmouse_core::record::{MatchKey, MatchRecord};
 
+use super::entrants;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::interrupt;
 use super::output::message;
 use super::play::{Pace, is_interrupted, play};
-use super::robots::{self, RobotSpec};
+use super::robots::RobotSpec;
 use super::setup::{IsolationArgs, TimeArgs, independent_executor};
 use super::verdict::print_failed_admissions;
 use crate::contest::{
@@ -44,7 +45,7 @@ pub fn check(
     let executor = independent_executor(plan.rules.clone(), jobs, isolation, time)?;
     let reversed: Vec<RobotSpec> = specs.iter().rev().cloned().collect();
     let again = Plan {
-        entrants: robots::load(&reversed, &executor)?,
+        entrants: entrants::load(&reversed, &executor)?,
         mazes: plan.mazes.iter().rev().cloned().collect(),
         seeds: plan.seeds,
         rules: plan.rules.clone(),

@@ -8,6 +8,7 @@ use std::time::Duration;
 use wasmouse_core::maze::bundled as bundled_mazes;
 use wasmouse_engine::LocalExecutor;
 
+use super::entrants;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::keep::{KeepArgs, ReplaySink};
@@ -158,7 +159,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     let legality = Legality::from_flag(args.lenient);
     let plan = Plan {
         mazes: mazes::distinct(mazes::load(&mazes, legality, bad_files)?),
-        entrants: robots::load(&robots, &executor)?,
+        entrants: entrants::load(&robots, &executor)?,
         seeds: args.seeds.seeds()?,
         rules: executor.rules().clone(),
     };

@@ -6,9 +6,10 @@ use std::sync::Arc;
 use wasmouse_core::game::Ruleset;
 use wasmouse_engine::Executor as _;
 
+use super::entrants;
 use super::failure::Failure;
 use super::mazes::{self, BadFiles, Legality};
-use super::robots::{self, RobotSpec};
+use super::robots::RobotSpec;
 use super::setup::{CacheArgs, IsolationArgs};
 use crate::contest::{NotAdmitted, Plan, Seeds};
 use crate::report::built::SampleMatch;
@@ -36,7 +37,7 @@ pub fn play(
     let spec = RobotSpec::of_file(robot.to_owned(), 0, None);
     let mazes = MAZES.map(str::to_owned);
     let plan = Plan {
-        entrants: robots::load(&[spec], &executor)?,
+        entrants: entrants::load(&[spec], &executor)?,
         mazes: mazes::load(&mazes, Legality::Contest, BadFiles::Fail)?,
         seeds: Seeds { first: 0, count: 1 },
         rules: executor.rules().clone(),

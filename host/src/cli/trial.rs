@@ -2,11 +2,12 @@
 //! compares them.
 
 use super::complaints;
+use super::entrants;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::mazes::{self, BadFiles, Legality};
 use super::play::{Pace, play_all};
-use super::robots::{self, RobotSpec};
+use super::robots::RobotSpec;
 use super::setup::{IsolationArgs, SeedArgs, SetupArgs, TimeArgs};
 use super::verdict::{exit, print_faults};
 use crate::contest::{
@@ -65,7 +66,7 @@ impl TrialArgs {
         let legality = Legality::from_flag(self.lenient);
         let plan = Plan {
             mazes: mazes::distinct(mazes::load(mazes, legality, bad_files)?),
-            entrants: robots::load(robots, &executor)?,
+            entrants: entrants::load(robots, &executor)?,
             seeds: self.seeds.seeds()?,
             rules: executor.rules().clone(),
         };

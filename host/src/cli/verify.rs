@@ -10,13 +10,13 @@ use wasmouse_core::record::MatchKey;
 use wasmouse_core::{GuestText, guest_text};
 use wasmouse_engine::{AdmissionLimits, LocalExecutor, engine_id};
 
+use super::entrants::admit;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::input;
 use super::output::{self, message};
 use super::play::{Pace, is_interrupted, play};
 use super::resolve::{Found, Mazes, RobotSource, Robots};
-use super::robots::admit;
 use super::setup::{EngineArgs, IsolationArgs, TimeArgs};
 use crate::contest::{
     ContestInfo, Entrant, FieldDifference, MazeSource, NotAdmitted, Plan, RESULTS_VERSION,

@@ -36,7 +36,7 @@ pub struct Resolved {
 
 /// A robot of a contest.
 pub struct ResolvedRobot {
-    /// The robot. `robots::load` makes entrants of it.
+    /// The robot. `entrants::load` makes entrants of it.
     pub spec: RobotSpec,
     /// What results call it. Names are unique.
     pub name: GuestText,

@@ -6,12 +6,12 @@ use std::thread;
 
 use wasmouse_engine::{LocalExecutor, engine_id};
 
+use super::super::entrants;
 use super::super::exit::Exit;
 use super::super::failure::Failure;
 use super::super::interrupt;
 use super::super::output::message;
 use super::super::play;
-use super::super::robots;
 use super::super::setup::{EngineArgs, IsolationArgs, TimeArgs};
 use super::super::store_failure::{store_failure, store_failure_of};
 use super::failures::print_unplayed;
@@ -224,7 +224,7 @@ impl Args {
     ) -> Result<Vec<Entrant>, Failure> {
         let robots = left.robots.iter().map(|&it| &contest.robots[it]);
         let specs: Vec<_> = robots.clone().map(|it| it.robot.spec.clone()).collect();
-        let mut entrants = robots::load(&specs, executor)?;
+        let mut entrants = entrants::load(&specs, executor)?;
         for (entrant, planned) in entrants.iter_mut().zip(robots) {
             if entrant.digest != planned.digest {
                 let name = planned.robot.name.escaped();

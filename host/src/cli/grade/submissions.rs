@@ -6,6 +6,7 @@ use wasmouse_core::GuestText;
 use wasmouse_engine::LocalExecutor;
 use wasmouse_engine::bundled::find;
 
+use super::super::entrants;
 use super::super::exit::Exit;
 use super::super::failure::Failure;
 use super::super::robots::{self, RobotSpec};
@@ -63,7 +64,7 @@ impl Field {
             names.insert(name, specs.len());
             specs.push(spec);
         }
-        let entrants = robots::load(&specs, executor)?;
+        let entrants = entrants::load(&specs, executor)?;
         Ok(Self {
             has_player: entrants[..graded].iter().any(|it| it.admission.is_ok()),
             submissions,
