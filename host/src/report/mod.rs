@@ -15,6 +15,7 @@ pub mod config;
 pub mod contest;
 pub mod contest_check;
 pub mod contest_status;
+mod engine_hint;
 pub mod escape;
 pub mod explain;
 pub mod faults;
