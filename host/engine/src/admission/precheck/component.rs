@@ -10,8 +10,9 @@ use super::super::rejection::Rejection;
 use super::declared::{Declared, of_core_type};
 use super::expansion::{Expansion, Requirements};
 use super::function::arity_of;
+use super::gauge::Gauge;
 use super::items::each;
-use super::measure::{Gauge, Measure};
+use super::measure::Measure;
 use super::module::{entry_ns, entry_spills};
 use super::parts::Parts;
 

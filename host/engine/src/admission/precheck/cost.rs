@@ -12,7 +12,8 @@
 
 use super::super::rejection::Rejection;
 use super::flow::Joins;
-use super::measure::{Gauge, Measure, NS_IN_MS};
+use super::gauge::Gauge;
+use super::measure::{Measure, NS_IN_MS};
 use super::spills::Spills;
 use super::values::Pressed;
 

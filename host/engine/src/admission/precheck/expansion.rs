@@ -16,7 +16,8 @@ use wasmparser::{
 };
 
 use super::super::rejection::Rejection;
-use super::measure::{Gauge, Measure};
+use super::gauge::Gauge;
+use super::measure::Measure;
 
 /// What instantiating something once takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

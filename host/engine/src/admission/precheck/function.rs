@@ -11,7 +11,8 @@ use super::super::rejection::Rejection;
 use super::cost::Sizes;
 use super::depth::Depth;
 use super::flow::{Construct, Flow};
-use super::measure::{Gauge, Measure};
+use super::gauge::Gauge;
+use super::measure::Measure;
 use super::pressure::Pressure;
 
 /// What an operator becomes, by its first byte.

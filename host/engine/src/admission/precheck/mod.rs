@@ -80,6 +80,7 @@ mod depth;
 mod expansion;
 mod flow;
 mod function;
+mod gauge;
 mod items;
 mod measure;
 mod module;

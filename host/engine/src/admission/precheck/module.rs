@@ -7,7 +7,8 @@ use super::super::constant::Constant;
 use super::super::rejection::Rejection;
 use super::context::Context;
 use super::expansion::Requirements;
-use super::measure::{Gauge, Measure};
+use super::gauge::Gauge;
+use super::measure::Measure;
 use super::spills::Spills;
 use super::startup::Startup;
 
