@@ -31,7 +31,11 @@ use super::sink::{ContestMatch, Ended, MatchFailure, Sink};
 const BATCH_MAX: usize = 64;
 
 /// Batches for each thread, at least, so that all end at about the same time.
-const BATCHES_PER_JOB: u64 = 8;
+const BATCHES_PER_JOB: usize = 8;
+
+/// Matches in a batch of the last block, at least, unless a contest has few: a batch takes a message
+/// to a worker.
+const LAST_BATCH_MIN: usize = 8;
 
 /// Matches in a block, at most.
 const BLOCK_MATCHES_MAX: usize = 4096;
@@ -102,7 +106,7 @@ pub fn run(
     }
     set_budgets(&players, rows, options.robot_time, &plan.rules.sandbox);
     let block_rows = (BLOCK_MATCHES_MAX / players.len()).clamp(1, BLOCK_ROWS_MAX);
-    let batch = plan.matches() / (jobs as u64 * BATCHES_PER_JOB);
+    let batch = plan.matches() / (jobs * BATCHES_PER_JOB) as u64;
     let batch = usize::try_from(batch).unwrap_or(BATCH_MAX);
     let run = Run {
         plan,
@@ -305,13 +309,18 @@ impl Run<'_> {
         state.begun = rows.end;
         let length = usize::try_from(rows.end - rows.start).expect("a block is small");
         let (first, last) = (self.maze_of(rows.start), self.maze_of(rows.end - 1));
+        let batch = if rows.end == self.rows {
+            self.last_batch(length)
+        } else {
+            self.batch
+        };
         // The threads begin in different mazes, so that each prepares its own.
-        let starts: Vec<usize> = (0..length).step_by(self.batch).collect();
+        let starts: Vec<usize> = (0..length).step_by(batch).collect();
         for group in starts.chunks(self.jobs) {
             for player in 0..self.players.len() {
                 state.batches.extend(group.iter().map(|&start| Batch {
                     player,
-                    rows: start..length.min(start + self.batch),
+                    rows: start..length.min(start + batch),
                     is_again: false,
                 }));
             }
@@ -327,6 +336,14 @@ impl Run<'_> {
                 batches_left: state.batches.len(),
             }),
         }));
+    }
+
+    /// Rows in a batch of the last block, which has that many: fewer than elsewhere, so that all
+    /// threads end at about the same time.
+    fn last_batch(&self, rows: usize) -> usize {
+        let matches = rows * self.players.len();
+        let batch = matches / (self.jobs * BATCHES_PER_JOB);
+        self.batch.min(batch.max(LAST_BATCH_MIN))
     }
 
     /// The maze of a row, as an index into the plan's.

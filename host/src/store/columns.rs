@@ -1,7 +1,7 @@
 //! A [`MatchRecord`] as the columns of the table `match`, and back.
 
 use rusqlite::types::ToSqlOutput;
-use rusqlite::{Row, Statement, ToSql, params};
+use rusqlite::{CachedStatement, Connection, Row, ToSql, params, params_from_iter};
 use wasmouse_core::GuestText;
 use wasmouse_core::game::{Counts, Fault, FaultKind, Phase, Ruleset, Run, Score, Steps, Verdict};
 use wasmouse_core::guest_text::GuestStr;
@@ -46,10 +46,28 @@ macro_rules! record_columns {
     };
 }
 
-/// Adds a record unless its address has one.
-pub(super) const INSERT_RECORD: &str = concat!(
-    "INSERT INTO match(engine, rules, robot, variant, maze, seed, ",
-    record_columns!(),
+/// The columns of every record, in the order of their parameters.
+macro_rules! inserted_columns {
+    () => {
+        "engine, rules, robot, variant, maze, seed, verdict, exploration_steps, speed_steps, \
+         fuel_start, fuel_steps, fuel_step_max, memory_bytes, bumps, clamps, resets_before_goal, \
+         resets_in_speed_run, journal_entries, journal_dropped, transcript"
+    };
+}
+
+/// Adds a record without a fault unless its address has one.
+const INSERT: &str = concat!(
+    "INSERT INTO match(",
+    inserted_columns!(),
+    ") VALUES(?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, \
+     ?19, ?20) ON CONFLICT DO NOTHING"
+);
+
+/// Adds a record with a fault unless its address has one.
+const INSERT_FAULT: &str = concat!(
+    "INSERT INTO match(",
+    inserted_columns!(),
+    ", fault_kind, fault_phase, fault_run, fault_step, fault_x, fault_y, fault_detail",
     ") VALUES(?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, \
      ?19, ?20, ?21, ?22, ?23, ?24, ?25, ?26, ?27) ON CONFLICT DO NOTHING"
 );
@@ -81,12 +99,12 @@ pub(super) const SELECT_KEPT: &str = concat!(
      WHERE t.engine = ?1 AND t.rules = ?2 AND t.robot = ?3 AND t.variant = ?4"
 );
 
-/// All records in the order of the file, with their addresses behind.
-pub(super) const SELECT_ALL: &str = concat!(
+/// The records of a player in the order of the file, with maze and seed behind.
+pub(super) const SELECT_PLAYER: &str = concat!(
     "SELECT ",
     record_columns!(),
-    ", engine, rules, robot, variant, maze, seed FROM match \
-     ORDER BY engine, rules, robot, variant, maze, seed"
+    ", maze, seed FROM match WHERE engine = ?1 AND rules = ?2 AND robot = ?3 AND variant = ?4 \
+     ORDER BY maze, seed"
 );
 
 /// The number of columns of a record: the first one behind.
@@ -115,51 +133,70 @@ fn same_parts(left: Score, right: Score) -> bool {
         && left.divisor() == right.divisor()
 }
 
-/// Executes [`INSERT_RECORD`]; whether it added a row.
-pub(super) fn insert(
-    statement: &mut Statement<'_>,
-    at: &Address,
-    record: &MatchRecord,
-) -> rusqlite::Result<bool> {
-    let verdict = match &record.verdict {
-        Verdict::Finished { .. } => FINISHED,
-        Verdict::BudgetUsedUp {
-            goal_reached: false,
-        } => BUDGET_USED_UP,
-        Verdict::BudgetUsedUp { goal_reached: true } => GOAL_REACHED,
-        Verdict::Fault { .. } => FAULT,
-    };
-    let fault = record.verdict.fault();
-    let rows = statement.execute(params![
-        at.engine,
-        at.rules,
-        at.robot,
-        at.variant,
-        at.maze,
-        at.seed,
-        verdict,
-        record.steps.exploration,
-        record.steps.speed,
-        record.fuel.start.cast_signed(),
-        record.fuel.steps.cast_signed(),
-        record.fuel.step_max.cast_signed(),
-        record.memory_bytes.cast_signed(),
-        fault.map(|it| fault_code(it.kind)),
-        record.counts.bumps,
-        record.counts.clamps,
-        record.counts.resets_before_goal,
-        record.counts.resets_in_speed_run,
-        record.journal.entries.cast_signed(),
-        record.journal.dropped.cast_signed(),
-        record.transcript.as_bytes(),
-        fault.map(|it| code(&Phase::ALL, it.phase)),
-        fault.map(|it| it.run.number()),
-        fault.map(|it| it.step),
-        fault.map(|it| it.cell.x),
-        fault.map(|it| it.cell.y),
-        fault.map(|it| column(&it.detail)),
-    ])?;
-    Ok(rows > 0)
+/// Adds records. Most have no fault, and are added faster without its columns.
+pub(super) struct Insert<'c> {
+    without_fault: CachedStatement<'c>,
+    with_fault: CachedStatement<'c>,
+}
+
+impl<'c> Insert<'c> {
+    pub fn new(connection: &'c Connection) -> rusqlite::Result<Self> {
+        Ok(Self {
+            without_fault: connection.prepare_cached(INSERT)?,
+            with_fault: connection.prepare_cached(INSERT_FAULT)?,
+        })
+    }
+
+    /// Adds a record unless its address has one; whether it did.
+    pub fn execute(&mut self, at: &Address, record: &MatchRecord) -> rusqlite::Result<bool> {
+        let verdict = match &record.verdict {
+            Verdict::Finished { .. } => FINISHED,
+            Verdict::BudgetUsedUp {
+                goal_reached: false,
+            } => BUDGET_USED_UP,
+            Verdict::BudgetUsedUp { goal_reached: true } => GOAL_REACHED,
+            Verdict::Fault { .. } => FAULT,
+        };
+        let values = params![
+            at.engine,
+            at.rules,
+            at.robot,
+            at.variant,
+            at.maze,
+            at.seed,
+            verdict,
+            record.steps.exploration,
+            record.steps.speed,
+            record.fuel.start.cast_signed(),
+            record.fuel.steps.cast_signed(),
+            record.fuel.step_max.cast_signed(),
+            record.memory_bytes.cast_signed(),
+            record.counts.bumps,
+            record.counts.clamps,
+            record.counts.resets_before_goal,
+            record.counts.resets_in_speed_run,
+            record.journal.entries.cast_signed(),
+            record.journal.dropped.cast_signed(),
+            record.transcript.as_bytes(),
+        ];
+        let rows = match record.verdict.fault() {
+            None => self.without_fault.execute(values)?,
+            Some(fault) => {
+                let fault = params![
+                    fault_code(fault.kind),
+                    code(&Phase::ALL, fault.phase),
+                    fault.run.number(),
+                    fault.step,
+                    fault.cell.x,
+                    fault.cell.y,
+                    column(&fault.detail),
+                ];
+                let values = values.iter().chain(fault);
+                self.with_fault.execute(params_from_iter(values))?
+            }
+        };
+        Ok(rows > 0)
+    }
 }
 
 /// The code of a kind of fault.
@@ -256,16 +293,4 @@ fn read_fault(row: &Row<'_>) -> rusqlite::Result<Option<Fault>> {
         cell: Cell::new(row.get(18)?, row.get(19)?),
         detail: text_at(row, 20)?,
     }))
-}
-
-/// The address behind the columns of a record.
-pub(super) fn address_behind(row: &Row<'_>) -> rusqlite::Result<Address> {
-    Ok(Address {
-        engine: row.get(RECORD_COLUMNS)?,
-        rules: row.get(RECORD_COLUMNS + 1)?,
-        robot: row.get(RECORD_COLUMNS + 2)?,
-        variant: row.get(RECORD_COLUMNS + 3)?,
-        maze: row.get(RECORD_COLUMNS + 4)?,
-        seed: row.get(RECORD_COLUMNS + 5)?,
-    })
 }

@@ -39,8 +39,9 @@ impl Store {
     ///
     /// When the store cannot be written.
     pub fn seal(&mut self) -> Result<Digest, StoreError> {
+        let other = Self::open_read_only(self.path())?;
         self.write(|transaction| {
-            let content = content_digest(transaction)?;
+            let content = content_digest_through_both(transaction, other)?;
             unseal(transaction)?;
             let sql = "INSERT INTO seal(id, content) VALUES(1, ?1)";
             transaction.execute(sql, params![content.as_bytes()])?;
@@ -63,19 +64,54 @@ impl Store {
 /// matches are grouped by player, so that those of a player are in memory at once and not all.
 pub(super) fn content_digest(connection: &Connection) -> Result<Digest, StoreErrorKind> {
     let catalog = Catalog::load(connection)?;
+    let (players, others) = matches(connection, &catalog, || other_tables(connection, &catalog))?;
+    Ok(combine(&others, players))
+}
+
+/// The same, read through two connections at once while nobody writes to the file, because one of
+/// them has a transaction to write in.
+fn content_digest_through_both(
+    writing: &Connection,
+    other: Store,
+) -> Result<Digest, StoreErrorKind> {
+    let catalog = &Catalog::load(writing)?;
+    thread::scope(|scope| {
+        let read = move || {
+            let tables = other.read(|it| other_tables(it, catalog));
+            tables.map_err(|error| error.kind)
+        };
+        let reading = thread::Builder::new().name("tables".to_owned());
+        let Ok(reading) = reading.spawn_scoped(scope, read) else {
+            // Not where the system has no more threads.
+            return content_digest(writing);
+        };
+        let (players, others) = matches(writing, catalog, || {
+            let tables = reading.join();
+            tables.unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        })?;
+        Ok(combine(&others, players))
+    })
+}
+
+/// The digest of the tables in their order; that of matches is the last one.
+fn combine(others: &[Digest], players: Vec<Digest>) -> Digest {
+    let builder = DigestBuilder::new("wasmouse.store.1");
+    let builder = others.iter().fold(builder, DigestBuilder::digest);
+    builder.digest(&list(players)).finish()
+}
+
+/// The digests of all tables but that of matches.
+fn other_tables(connection: &Connection, catalog: &Catalog) -> Result<Vec<Digest>, StoreErrorKind> {
     let mut tables = vec![
-        catalog.engines.values().map(|it| it.digest()).collect(),
-        catalog.robots.values().copied().collect(),
+        list(catalog.engines.values().map(|it| it.digest()).collect()),
+        list(catalog.robots.values().copied().collect()),
     ];
     for (name, sql) in TABLES {
-        tables.push(rows(connection, name, sql)?);
+        tables.push(list(rows(connection, name, sql)?));
     }
-    tables.push(submissions_by_name(connection)?);
-    tables.push(transcripts(connection, &catalog)?);
-    tables.push(matches(connection, &catalog)?);
-    let builder = DigestBuilder::new("wasmouse.store.1");
-    let tables = tables.into_iter().map(list);
-    Ok(tables.fold(builder, |it, table| it.digest(&table)).finish())
+    tables.push(list(submissions_by_name(connection)?));
+    tables.push(list(transcripts(connection, catalog)?));
+    Ok(tables)
 }
 
 /// Tables whose rows are digests, numbers and text without ids.
@@ -185,9 +221,14 @@ const GROUP_MAX: usize = 1024;
 /// Groups that wait to be hashed, at most.
 const GROUPS_WAITING: usize = 4;
 
-/// The digests of the players. Reading the records takes twice as long as hashing them, so another
-/// thread does that meanwhile.
-fn matches(connection: &Connection, catalog: &Catalog) -> Result<Vec<Digest>, StoreErrorKind> {
+/// The digests of the players, and what `meanwhile` returns. Reading the records takes twice as
+/// long as hashing them, so another thread does that meanwhile; this one reads something else
+/// while the other comes to its end.
+fn matches<T>(
+    connection: &Connection,
+    catalog: &Catalog,
+    meanwhile: impl FnOnce() -> Result<T, StoreErrorKind>,
+) -> Result<(Vec<Digest>, T), StoreErrorKind> {
     thread::scope(|scope| {
         let (sender, groups) = sync_channel::<Group>(GROUPS_WAITING);
         let mut players = PlayerDigests::new(catalog);
@@ -200,7 +241,7 @@ fn matches(connection: &Connection, catalog: &Catalog) -> Result<Vec<Digest>, St
             // Not where the system has no more threads.
             let mut players = PlayerDigests::new(catalog);
             each_group(connection, catalog, |it| players.add(&it))?;
-            return players.finish();
+            return Ok((players.finish()?, meanwhile()?));
         };
         let read = each_group(connection, catalog, |group| {
             // Whoever does not receive it has failed, and says why when it is joined.
@@ -208,9 +249,11 @@ fn matches(connection: &Connection, catalog: &Catalog) -> Result<Vec<Digest>, St
             Ok(())
         });
         drop(sender);
+        let other = read.and_then(|()| meanwhile());
         let players = hashing.join();
-        read?;
-        players.unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        let other = other?;
+        let players = players.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
+        Ok((players, other))
     })
 }
 
@@ -351,7 +394,7 @@ mod tests {
         let contest = Contest::new(2, 3, seeds);
         let (_folder, mut store) = new_store();
         contest.store(&mut store, KeptTranscripts::None, |_, _, _| true);
-        let found = store.read(|it| matches(it, &Catalog::load(it)?))?;
+        let (found, ()) = store.read(|it| matches(it, &Catalog::load(it)?, || Ok(())))?;
         let on_this_thread = store.read(|it| {
             let catalog = Catalog::load(it)?;
             let mut players = PlayerDigests::new(&catalog);

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use rusqlite::{Connection, OptionalExtension as _, params};
+use rusqlite::{CachedStatement, Connection, OptionalExtension as _, params};
 use wasmouse_core::game::{Ruleset, Score};
 use wasmouse_core::guest_text::GuestStr;
 use wasmouse_core::maze::generate::{GenSpec, GeneratedMaze};
@@ -38,6 +38,9 @@ pub struct GeneratedDigests(HashMap<String, Digest>);
 impl GeneratedDigests {
     /// The digest of a generated maze; `None` if it was not played yet.
     pub fn get(&self, maze: &GeneratedMaze) -> Option<&Digest> {
+        if self.is_empty() {
+            return None;
+        }
         self.0.get(&maze.to_string())
     }
 
@@ -183,40 +186,6 @@ impl MazeRow {
         }
     }
 
-    /// Adds the maze unless it is there, and what depends on the rules. Returns its id.
-    pub fn put(&self, connection: &Connection, rules: i64) -> Result<i64, StoreErrorKind> {
-        let id = self.put_alone(connection)?;
-        let oracle = self.oracle;
-        let steps = oracle.map(|it| (it.exploration_steps(), it.speed_steps()));
-        put_oracle(connection, id, rules, steps)?;
-        if self.walls.is_none() {
-            put_generated(connection, self.name.as_guest(), id)?;
-        }
-        Ok(id)
-    }
-
-    /// Adds the maze unless it is there. Returns its id.
-    pub fn put_alone(&self, connection: &Connection) -> Result<i64, StoreErrorKind> {
-        let sql = "INSERT INTO maze(digest, name, dimension, walls) VALUES(?1, ?2, ?3, ?4) \
-                   ON CONFLICT DO NOTHING";
-        // Most mazes that arrive are new, so adding is tried first.
-        let added = connection.prepare_cached(sql)?.execute(params![
-            self.digest.as_bytes(),
-            column(&self.name),
-            self.dimension,
-            self.walls,
-        ])?;
-        if added > 0 {
-            return Ok(connection.last_insert_rowid());
-        }
-        let id = ids::find(connection, Table::Maze, &self.digest)?;
-        let id = id.ok_or_else(|| StoreErrorKind::Unknown(format!("maze {}", self.digest)))?;
-        let sql = "UPDATE maze SET name = ?2 WHERE id = ?1 AND name > ?2";
-        let mut statement = connection.prepare_cached(sql)?;
-        statement.execute(params![id, column(&self.name)])?;
-        Ok(id)
-    }
-
     /// The maze of this row of a store, and its name if that generates it.
     pub fn build(
         &self,
@@ -241,19 +210,81 @@ impl MazeRow {
     }
 }
 
-/// Adds what an oracle does in a maze.
-pub(super) fn put_oracle(
-    connection: &Connection,
-    maze: i64,
-    rules: i64,
-    steps: OracleSteps,
-) -> Result<(), StoreErrorKind> {
-    let sql = "INSERT INTO oracle(maze, rules, oracle_exploration, oracle_speed) \
-               VALUES(?1, ?2, ?3, ?4) ON CONFLICT DO NOTHING";
-    let (exploration, speed) = steps.unzip();
-    let mut statement = connection.prepare_cached(sql)?;
-    statement.execute(params![maze, rules, exploration, speed])?;
-    Ok(())
+/// Adds mazes in a transaction.
+pub(super) struct MazeWriter<'c> {
+    connection: &'c Connection,
+    maze: CachedStatement<'c>,
+    oracle: CachedStatement<'c>,
+    generated: CachedStatement<'c>,
+}
+
+impl<'c> MazeWriter<'c> {
+    pub fn new(connection: &'c Connection) -> Result<Self, StoreErrorKind> {
+        let maze = "INSERT INTO maze(digest, name, dimension, walls) VALUES(?1, ?2, ?3, ?4) \
+                    ON CONFLICT DO NOTHING";
+        let oracle = "INSERT INTO oracle(maze, rules, oracle_exploration, oracle_speed) \
+                      VALUES(?1, ?2, ?3, ?4) ON CONFLICT DO NOTHING";
+        let generated = "INSERT INTO generated(generator, name, maze) VALUES(?1, ?2, ?3) \
+                         ON CONFLICT DO NOTHING";
+        Ok(Self {
+            connection,
+            maze: connection.prepare_cached(maze)?,
+            oracle: connection.prepare_cached(oracle)?,
+            generated: connection.prepare_cached(generated)?,
+        })
+    }
+
+    /// Adds a maze unless it is there, and what depends on the rules. Returns its id.
+    pub fn put(&mut self, maze: &MazeRow, rules: i64) -> Result<i64, StoreErrorKind> {
+        let id = self.put_alone(maze)?;
+        let oracle = maze.oracle;
+        let steps = oracle.map(|it| (it.exploration_steps(), it.speed_steps()));
+        self.put_oracle(id, rules, steps)?;
+        if maze.walls.is_none() {
+            self.put_generated(maze.name.as_guest(), id)?;
+        }
+        Ok(id)
+    }
+
+    /// Adds a maze unless it is there. Returns its id.
+    pub fn put_alone(&mut self, maze: &MazeRow) -> Result<i64, StoreErrorKind> {
+        // Most mazes that arrive are new, so adding is tried first.
+        let added = self.maze.execute(params![
+            maze.digest.as_bytes(),
+            column(&maze.name),
+            maze.dimension,
+            maze.walls,
+        ])?;
+        if added > 0 {
+            return Ok(self.connection.last_insert_rowid());
+        }
+        let id = ids::find(self.connection, Table::Maze, &maze.digest)?;
+        let id = id.ok_or_else(|| StoreErrorKind::Unknown(format!("maze {}", maze.digest)))?;
+        let sql = "UPDATE maze SET name = ?2 WHERE id = ?1 AND name > ?2";
+        let mut statement = self.connection.prepare_cached(sql)?;
+        statement.execute(params![id, column(&maze.name)])?;
+        Ok(id)
+    }
+
+    /// Adds what an oracle does in a maze.
+    pub fn put_oracle(
+        &mut self,
+        maze: i64,
+        rules: i64,
+        steps: OracleSteps,
+    ) -> Result<(), StoreErrorKind> {
+        let (exploration, speed) = steps.unzip();
+        let values = params![maze, rules, exploration, speed];
+        self.oracle.execute(values)?;
+        Ok(())
+    }
+
+    /// Adds the name of a generated maze.
+    pub fn put_generated(&mut self, name: GuestStr<'_>, maze: i64) -> Result<(), StoreErrorKind> {
+        let values = params![GENERATOR, column(name), maze];
+        self.generated.execute(values)?;
+        Ok(())
+    }
 }
 
 /// The steps of the oracle under some rules: exploration and speed.
@@ -296,20 +327,6 @@ pub(super) fn check_oracle(
         }
     }
     Ok(said)
-}
-
-/// Adds the name of a generated maze.
-pub(super) fn put_generated(
-    connection: &Connection,
-    name: GuestStr<'_>,
-    maze: i64,
-) -> Result<(), StoreErrorKind> {
-    let sql =
-        "INSERT INTO generated(generator, name, maze) VALUES(?1, ?2, ?3) ON CONFLICT DO NOTHING";
-    connection
-        .prepare_cached(sql)?
-        .execute(params![GENERATOR, column(name), maze])?;
-    Ok(())
 }
 
 /// The number of bytes before the walls: those of [`Maze::identity_bytes`].

@@ -28,8 +28,7 @@ use super::error::{StoreError, StoreErrorKind};
 use super::ids::{self, Address, Table, digest_at};
 use super::integrity::{Replaying, check_database};
 use super::mazes::{
-    GENERATOR, MazeRow, check_oracle, generated_by, oracle_row, parse_generated, put_generated,
-    put_oracle,
+    GENERATOR, MazeRow, MazeWriter, check_oracle, generated_by, oracle_row, parse_generated,
 };
 use super::open::Store;
 use super::scan::{Catalog, each_record, each_transcript, found};
@@ -206,6 +205,7 @@ impl Merging<'_> {
     /// Adds the mazes. What the target has already was checked when it came.
     fn mazes(&mut self) -> Result<(), Blame> {
         let mut verified: HashSet<String> = HashSet::new();
+        let mut writer = MazeWriter::new(self.target).map_err(Blame::Target)?;
         let mut statement = self
             .source
             .prepare("SELECT id, digest, name, dimension, walls FROM maze ORDER BY id")?;
@@ -226,9 +226,9 @@ impl Merging<'_> {
                 verified.extend(name);
                 walls = Some(built);
             }
-            let into = maze.put_alone(self.target).map_err(Blame::Target)?;
+            let into = writer.put_alone(&maze).map_err(Blame::Target)?;
             self.mazes.insert(id, into);
-            self.oracles((id, into), &maze, walls)?;
+            self.oracles((id, into), &maze, walls, &mut writer)?;
         }
         let mut statement = self
             .source
@@ -250,7 +250,8 @@ impl Merging<'_> {
                 let problem = format!("`{name}` is another maze");
                 return Err(Blame::Source(StoreErrorKind::Damaged(problem)));
             }
-            put_generated(self.target, (&name).into(), into).map_err(Blame::Target)?;
+            let put = writer.put_generated((&name).into(), into);
+            put.map_err(Blame::Target)?;
         }
         Ok(())
     }
@@ -261,6 +262,7 @@ impl Merging<'_> {
         (id, into): (i64, i64),
         maze: &MazeRow,
         mut walls: Option<Maze>,
+        writer: &mut MazeWriter<'_>,
     ) -> Result<(), Blame> {
         for (&rules_id, rules) in &self.catalog.rules {
             let Some(said) = oracle_row(self.source, id, rules_id)? else {
@@ -276,7 +278,8 @@ impl Merging<'_> {
                 None => maze.build(self.source, id)?.0,
             };
             check_oracle(self.source, &maze.digest, &built, rules_id, rules)?;
-            put_oracle(self.target, into, rules_into, said).map_err(Blame::Target)?;
+            let put = writer.put_oracle(into, rules_into, said);
+            put.map_err(Blame::Target)?;
             walls = Some(built);
         }
         Ok(())

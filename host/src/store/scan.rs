@@ -2,12 +2,12 @@
 
 use std::collections::HashMap;
 
-use rusqlite::Connection;
+use rusqlite::{Connection, params};
 use wasmouse_core::Digest;
 use wasmouse_core::game::Ruleset;
 use wasmouse_core::record::{EngineId, MatchKey, MatchRecord};
 
-use super::columns::{self, SELECT_ALL};
+use super::columns::{self, RECORD_COLUMNS, SELECT_PLAYER};
 use super::error::StoreErrorKind;
 use super::ids::{self, Address, Table, digest_at};
 
@@ -89,24 +89,69 @@ pub(super) fn each_record<E: From<StoreErrorKind>>(
     mut visit: impl FnMut(&Address, MatchRecord) -> Result<(), E>,
 ) -> Result<(), E> {
     let sqlite = |error: rusqlite::Error| StoreErrorKind::from(error);
-    let mut statement = connection.prepare(SELECT_ALL).map_err(sqlite)?;
-    let mut rows = statement.query([]).map_err(sqlite)?;
-    let mut last: Option<(Address, MatchKey, &Ruleset)> = None;
-    while let Some(row) = rows.next().map_err(sqlite)? {
-        let at = columns::address_behind(row).map_err(sqlite)?;
-        // Neighbours differ in the maze and the seed, so the rest is not looked up again.
-        let (key, rules) = match last {
-            Some((before, key, rules)) if before.is_same_player(&at) => {
-                let maze = *found(&catalog.mazes, at.maze)?;
-                let seed = at.seed.cast_unsigned();
-                (MatchKey { maze, seed, ..key }, rules)
-            }
-            _ => (catalog.key(&at)?, catalog.rules(&at)?),
-        };
-        visit(&at, columns::read_record(row, key, rules)?)?;
-        last = Some((at, key, rules));
+    let mut statement = connection.prepare(SELECT_PLAYER).map_err(sqlite)?;
+    let mut last = None;
+    while let Some(player) = next_player(connection, last.as_ref()).map_err(sqlite)? {
+        let rules = catalog.rules(&player)?;
+        let values = params![player.engine, player.rules, player.robot, player.variant];
+        let mut rows = statement.query(values).map_err(sqlite)?;
+        let mut key = None;
+        while let Some(row) = rows.next().map_err(sqlite)? {
+            let at = Address {
+                maze: row.get(RECORD_COLUMNS).map_err(sqlite)?,
+                seed: row.get(RECORD_COLUMNS + 1).map_err(sqlite)?,
+                ..player
+            };
+            let next = match key {
+                Some(key) => MatchKey {
+                    maze: *found(&catalog.mazes, at.maze)?,
+                    seed: at.seed.cast_unsigned(),
+                    ..key
+                },
+                None => catalog.key(&at)?,
+            };
+            key = Some(next);
+            visit(&at, columns::read_record(row, next, rules)?)?;
+        }
+        last = Some(player);
     }
     Ok(())
+}
+
+/// The player of the first match in the order of the file, or of the first one behind all matches
+/// of a player; its maze and seed are 0. SQLite finds it without going through those matches.
+fn next_player(
+    connection: &Connection,
+    last: Option<&Address>,
+) -> rusqlite::Result<Option<Address>> {
+    let sql = match last {
+        None => {
+            "SELECT engine, rules, robot, variant FROM match \
+             ORDER BY engine, rules, robot, variant LIMIT 1"
+        }
+        Some(_) => {
+            "SELECT engine, rules, robot, variant FROM match \
+             WHERE (engine, rules, robot, variant) > (?1, ?2, ?3, ?4) \
+             ORDER BY engine, rules, robot, variant LIMIT 1"
+        }
+    };
+    let mut statement = connection.prepare_cached(sql)?;
+    let values = last.map(|it| (it.engine, it.rules, it.robot, it.variant));
+    let mut rows = match values {
+        None => statement.query([])?,
+        Some(values) => statement.query(values)?,
+    };
+    let Some(row) = rows.next()? else {
+        return Ok(None);
+    };
+    Ok(Some(Address {
+        engine: row.get(0)?,
+        rules: row.get(1)?,
+        robot: row.get(2)?,
+        variant: row.get(3)?,
+        maze: 0,
+        seed: 0,
+    }))
 }
 
 /// A row of the table of transcripts.

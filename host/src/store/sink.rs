@@ -12,7 +12,7 @@ use wasmouse_core::record::{EngineId, MatchKey, MatchRecord};
 use super::columns;
 use super::error::{StoreError, StoreErrorKind};
 use super::ids::{self, Address, IdCache};
-use super::mazes::MazeRow;
+use super::mazes::{MazeRow, MazeWriter};
 use super::open::Store;
 use super::seal::unseal;
 use super::transcripts::{self, KeptTranscripts, Rank};
@@ -65,6 +65,14 @@ impl Batch {
     const fn len(&self) -> usize {
         self.mazes.len() + self.records.len() + self.unplayed.len()
     }
+
+    /// Empties it. Its memory is kept for what arrives next.
+    fn clear(&mut self) {
+        self.mazes.clear();
+        self.records.clear();
+        self.transcripts.clear();
+        self.unplayed.clear();
+    }
 }
 
 impl<'s> StoreSink<'s> {
@@ -84,6 +92,9 @@ impl<'s> StoreSink<'s> {
         if !store.is_writable() {
             return Err(store.error(StoreErrorKind::ReadOnly));
         }
+        // The ids of a record have just been found or added by the sink itself, so looking each of
+        // them up once more finds nothing. Sealing the store does, when all has been written.
+        store.check_references(false)?;
         Ok(Self {
             engine_digest: engine.digest(),
             rules_digest: rules.digest(),
@@ -109,7 +120,7 @@ impl<'s> StoreSink<'s> {
         if self.batch.len() == 0 {
             return Ok(());
         }
-        let batch = mem::take(&mut self.batch);
+        let mut batch = mem::take(&mut self.batch);
         let (engine, rules, is_best) = (
             &self.engine,
             &self.rules,
@@ -127,6 +138,8 @@ impl<'s> StoreSink<'s> {
             };
             writing.write(&batch)
         });
+        batch.clear();
+        self.batch = batch;
         match written {
             Ok(None) => Ok(()),
             Ok(Some(conflict)) => {
@@ -246,6 +259,8 @@ impl Drop for StoreSink<'_> {
             // Nobody is left to tell. What is not written is played again.
             let _ = self.flush();
         }
+        // A store that cannot do that cannot write, either.
+        let _ = self.store.check_references(true);
     }
 }
 
@@ -263,8 +278,9 @@ impl Writing<'_> {
     /// Writes all of it. The first conflict is returned, after everything has been written.
     fn write(&mut self, batch: &Batch) -> Result<Option<StoreErrorKind>, StoreErrorKind> {
         unseal(self.transaction)?;
+        let mut mazes = MazeWriter::new(self.transaction)?;
         for maze in &batch.mazes {
-            let id = maze.put(self.transaction, self.rules_id)?;
+            let id = mazes.put(maze, self.rules_id)?;
             self.ids.remember_maze(&maze.digest, id);
         }
         let mut records = Vec::with_capacity(batch.records.len());

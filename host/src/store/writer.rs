@@ -5,7 +5,7 @@ use wasmouse_core::GuestText;
 use wasmouse_core::game::Ruleset;
 use wasmouse_core::record::{MatchKey, MatchRecord};
 
-use super::columns::{self, INSERT_RECORD, SELECT_RECORD, text_at};
+use super::columns::{self, Insert, SELECT_RECORD, text_at};
 use super::error::{StoreError, StoreErrorKind};
 use super::ids::Address;
 use super::open::Store;
@@ -25,7 +25,7 @@ pub(super) enum Put {
 /// Adds records in a transaction.
 pub(super) struct RecordWriter<'c> {
     connection: &'c Connection,
-    insert: CachedStatement<'c>,
+    insert: Insert<'c>,
     /// Removes what was not played before; `None` while everything was played.
     clear: Option<CachedStatement<'c>>,
 }
@@ -42,7 +42,7 @@ impl<'c> RecordWriter<'c> {
         });
         Ok(Self {
             connection,
-            insert: connection.prepare_cached(INSERT_RECORD)?,
+            insert: Insert::new(connection)?,
             clear: clear.transpose()?,
         })
     }
@@ -54,7 +54,7 @@ impl<'c> RecordWriter<'c> {
         record: &MatchRecord,
         rules: &Ruleset,
     ) -> Result<Put, StoreErrorKind> {
-        if columns::insert(&mut self.insert, at, record)? {
+        if self.insert.execute(at, record)? {
             if let Some(clear) = &mut self.clear {
                 clear.execute(params![
                     at.engine, at.rules, at.robot, at.variant, at.maze, at.seed,

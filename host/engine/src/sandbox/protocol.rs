@@ -336,6 +336,12 @@ pub(super) fn read<T: DeserializeOwned>(from: &mut impl Read) -> io::Result<Opti
         .map_err(|error| io::Error::other(format!("a frame cannot be read: {error}")))
 }
 
+/// Whether these bytes begin with a whole frame.
+pub(super) fn has_frame(bytes: &[u8]) -> bool {
+    let frame = bytes.split_first_chunk();
+    frame.is_some_and(|(length, rest)| rest.len() >= u32::from_le_bytes(*length) as usize)
+}
+
 /// Reads a frame that has to come.
 pub(super) fn expect<T: DeserializeOwned>(from: &mut impl Read) -> io::Result<T> {
     read(from)?.ok_or_else(|| io::ErrorKind::UnexpectedEof.into())
@@ -344,6 +350,18 @@ pub(super) fn expect<T: DeserializeOwned>(from: &mut impl Read) -> io::Result<T>
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_frame_is_whole_with_its_last_byte() {
+        let mut bytes = Vec::new();
+        write(&mut bytes, &"a frame").expect("memory");
+        let whole = bytes.len();
+        write(&mut bytes, &"another one").expect("memory");
+        for length in 0..=bytes.len() {
+            let is_whole = has_frame(&bytes[..length]);
+            assert_eq!(is_whole, length >= whole, "{length}");
+        }
+    }
 
     #[test]
     fn frames_come_back_and_end() {

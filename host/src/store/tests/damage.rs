@@ -132,3 +132,18 @@ fn changed_bytes_end_in_errors() {
     }
     assert!(found >= 140, "only {found} of 150 changes were found");
 }
+
+#[test]
+fn a_store_is_not_sealed_when_a_match_refers_to_nothing() {
+    for table in ["engine", "rules", "robot", "maze"] {
+        let (folder, mut store) = new_store();
+        contest().store(&mut store, KeptTranscripts::None, |_, _, _| true);
+        drop(store);
+        let path = folder.path().join("results.db");
+        tamper(&path, &format!("DELETE FROM {table} WHERE id = 1"));
+        let mut store = Store::open_existing(&path).expect("a store");
+        let error = store.seal().expect_err(table).to_string();
+        assert!(error.contains("refers to id 1, which"), "{table}: {error}");
+        assert_eq!(store.sealed().expect("read"), None);
+    }
+}

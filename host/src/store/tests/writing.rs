@@ -74,6 +74,19 @@ fn what_arrived_is_written_when_the_sink_is_dropped() {
     assert_eq!(store.missing(&contest.keys()).expect("read").count(), 0);
 }
 
+#[test]
+fn references_are_checked_again_when_the_sink_is_gone() {
+    let contest = Contest::new(1, 1, SEEDS);
+    let (_folder, mut store) = new_store();
+    contest.store(&mut store, KeptTranscripts::None, |_, _, _| true);
+    let written = store.write(|transaction| {
+        let sql = "INSERT INTO generated(generator, name, maze) VALUES('a', 'b', 77)";
+        Ok(transaction.execute(sql, [])?)
+    });
+    let error = written.expect_err("there is no such maze").to_string();
+    assert!(error.contains("FOREIGN KEY"), "{error}");
+}
+
 /// The keys whose transcripts a store has.
 fn kept(store: &Store, contest: &Contest) -> Vec<Digest> {
     let mut kept = Vec::new();

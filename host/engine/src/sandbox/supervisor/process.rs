@@ -266,6 +266,11 @@ impl Talk<'_> {
         protocol::expect(self.from)
     }
 
+    /// Whether a frame has come that was not received yet.
+    pub(super) fn has_frame(&self) -> bool {
+        protocol::has_frame(self.from.buffer())
+    }
+
     /// Waits for the first frame and checks that the worker is the same build.
     pub(super) fn greet(&mut self) -> io::Result<SandboxStatus> {
         let hello: Hello = self.receive()?;
