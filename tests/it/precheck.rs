@@ -98,10 +98,6 @@ fn bombs_are_rejected_for_what_makes_them_one() {
                 .expect("a core module"),
             "ms of estimated time to compile the file",
         ),
-        (
-            bombs::looped_values(10, 7000, 7000),
-            "ms of estimated time to compile a function",
-        ),
         (bombs::empty_functions(1_000_000), "functions"),
         (bombs::long_function(7_600_000), "bytes in a function"),
         (

@@ -118,10 +118,10 @@ impl Functions {
         let range = body.range();
         let bytes = range.end - range.start;
         gauge.note(Measure::FunctionBytes, bytes, range.start)?;
-        let results = function
+        let (parameters, results) = function
             .resources
             .sub_type_at(function.ty)
-            .map_or(0, |ty| arity_of(&ty.composite_type.inner).1);
+            .map_or((0, 0), |ty| arity_of(&ty.composite_type.inner));
         let allocations = std::mem::take(&mut self.allocations);
         let mut validator = function.into_validator(allocations);
         let mut reader = body.get_binary_reader();
@@ -132,7 +132,7 @@ impl Functions {
         self.flow.begin(locals, results);
         self.depth.begin();
         self.regions.begin();
-        self.pressure.begin(locals, |local| {
+        self.pressure.begin(locals, parameters, |local| {
             validator.get_local_type(local).is_some_and(is_float)
         });
         let mut function = Function {

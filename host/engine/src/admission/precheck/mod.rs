@@ -46,8 +46,8 @@
 //! | variables times blocks | 64,000,000 | 315,600 | 952,840 | 19,394,640 |
 //! | values carried | 80,000 | 15,119 | 8,948 | 48,533 |
 //! | estimated MiB, one function | 600 | 185 | 79 | 305 |
-//! | estimated ms, one function | 20,000 | 1,063 | 387 | 6,287 |
-//! | estimated ms, the file | 47,000 | 26,341 | 5,517 | 44,125 |
+//! | estimated ms, one function | 20,000 | 1,063 | 385 | 3,967 |
+//! | estimated ms, the file | 44,000 | 25,760 | 5,340 | 40,720 |
 //!
 //! # What the estimate is worth
 //!

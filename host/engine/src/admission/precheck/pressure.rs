@@ -63,8 +63,8 @@ pub(super) struct Pressure {
 }
 
 impl Pressure {
-    /// Begins a function with that many locals, parameters among them.
-    pub(super) fn begin(&mut self, locals: u32, is_float: impl Fn(u32) -> bool) {
+    /// Begins a function with that many locals, of which the first are parameters.
+    pub(super) fn begin(&mut self, locals: u32, parameters: u64, is_float: impl Fn(u32) -> bool) {
         self.now = 0;
         self.operands.clear();
         self.locals.clear();
@@ -84,7 +84,9 @@ impl Pressure {
         self.frames.push(Frame::default());
         for local in 0..locals {
             let value = self.make(0, false);
-            self.values.get_mut(value).is_float = is_float(local);
+            let first = self.values.get_mut(value);
+            first.is_float = is_float(local);
+            first.is_initial = u64::from(local) >= parameters;
             self.locals.push(value);
         }
     }
@@ -119,10 +121,13 @@ impl Pressure {
                 self.pop();
             }
             Operator::Block { .. } => self.open(Frame::default()),
-            Operator::Loop { .. } => self.open(Frame {
-                is_loop: true,
-                ..Frame::default()
-            }),
+            Operator::Loop { .. } => {
+                self.call(true);
+                self.open(Frame {
+                    is_loop: true,
+                    ..Frame::default()
+                });
+            }
             Operator::If { .. } => {
                 let condition = self.pop();
                 self.apply(condition);
@@ -275,11 +280,7 @@ impl Pressure {
             // Calls.
             Some(0x10..=0x15) => {
                 self.epoch += 1;
-                self.values.call(Call {
-                    at: self.now,
-                    until: u32::MAX,
-                    is_certain: self.doubts == 0,
-                });
+                self.call(false);
             }
             // Everything but reading and writing globals may change memory.
             Some(0x23 | 0x24) => {}
@@ -301,6 +302,15 @@ impl Pressure {
         if let Some(&value) = self.operands.last() {
             self.values.get_mut(value).is_float = true;
         }
+    }
+
+    fn call(&mut self, is_loop: bool) {
+        self.values.call(Call {
+            at: self.now,
+            until: u32::MAX,
+            is_certain: self.doubts == 0,
+            is_loop,
+        });
     }
 
     fn open(&mut self, frame: Frame) {
@@ -438,7 +448,7 @@ mod tests {
 
     fn loaded(times: u8, calls: bool) -> Pressed {
         let mut pressure = Pressure::default();
-        pressure.begin(2, |_| false);
+        pressure.begin(2, 2, |_| false);
         for _ in 0..times {
             for offset in 0..100 {
                 add_loaded(&mut pressure, offset);
@@ -475,7 +485,7 @@ mod tests {
     #[test]
     fn a_call_that_is_passed_by_ends_nothing() {
         let mut pressure = Pressure::default();
-        pressure.begin(2, |_| false);
+        pressure.begin(2, 2, |_| false);
         for _ in 0..4 {
             for offset in 0..100 {
                 add_loaded(&mut pressure, offset);

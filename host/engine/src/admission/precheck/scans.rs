@@ -8,13 +8,15 @@
 //!
 //! Values are visited in the order of their numbers: block parameters first, in the order of the
 //! blocks, then everything else, from the end of the function to its beginning. A value is split when
-//! a call clobbers its register, or when more values are live than there are registers. Which one
-//! is split in that case is not known, but one is: so all of them count until the first that does
-//! not fit. Values may be split for other reasons, which makes this an upper bound. It is as good
-//! as what `pressure` knows of the values.
+//! a call clobbers its register, when it is live where a loop starts, or when more values are needed
+//! in registers than there are. Which one is split in that case is not known, but one is: so all of
+//! them count until the first that does not fit. Values may be split for other reasons, which makes
+//! this about an upper bound. It is as good as what `pressure` knows of the values.
+
+use std::ops::Range;
 
 use super::flow::Meeting;
-use super::value::{Call, Value};
+use super::value::{Call, Value, index};
 
 /// Registers for integers, and as many for floats.
 const REGISTERS: u32 = 14;
@@ -38,6 +40,8 @@ struct Alive {
     /// The blocks.
     begin: u32,
     end: u32,
+    /// The end of those of them after which it is needed in a register.
+    needed: u32,
     is_float: bool,
     place: Place,
 }
@@ -49,7 +53,8 @@ enum Place {
     Register,
     /// In memory, and nothing loads it.
     Memory,
-    /// In memory while a call is made, and later in a register.
+    /// In several places: in memory while a call is made and later in a register, or also in a block at
+    /// the end of the function.
     Split,
 }
 
@@ -159,7 +164,8 @@ impl Scans {
         self.order.clear();
         for value in values {
             let (first, last) = value.alive(joined);
-            if value.is_constant || first == last {
+            let is_constant = value.is_constant || value.is_initial;
+            if first == last || is_constant && !joined {
                 continue;
             }
             let begin = self.starts.partition_point(|start| start.0 < first);
@@ -167,25 +173,19 @@ impl Scans {
             if begin >= end {
                 continue;
             }
-            let next = calls.partition_point(|call| call.at <= first);
-            let calls = calls[next..].iter().take(Call::LOOKED_AT);
-            let passed = |until: u32| {
-                calls
-                    .clone()
-                    .any(|call| call.is_certain && call.at < until && until <= call.until)
-            };
-            let place = if passed(value.computed.min(last)) {
-                Place::Split
-            } else if passed(last) {
-                Place::Memory
+            // A parameter is often handed on to the next one, which needs it.
+            let needed = if joined {
+                last
             } else {
-                Place::Register
+                value.computed.min(last)
             };
-            let index = |it: usize| u32::try_from(it).unwrap_or(u32::MAX);
+            let place = place(calls, first, needed, last);
+            let number = |index: usize| u32::try_from(index).unwrap_or(u32::MAX);
             self.order.push(Alive {
                 first,
-                begin: index(begin),
-                end: index(end),
+                begin: number(begin),
+                end: number(end),
+                needed: number(self.starts.partition_point(|start| start.0 < needed)),
                 is_float: value.is_float,
                 place,
             });
@@ -202,7 +202,8 @@ impl Scans {
             return (blocks, value.place == Place::Split);
         }
         let mut is_split = false;
-        for alive in &mut self.alive[value.blocks()] {
+        // One that is only handed on stays in memory once it is there, which is no split that counts.
+        for alive in &mut self.alive[value.needed()] {
             let alive = &mut alive[usize::from(value.is_float)];
             *alive += 1;
             is_split |= *alive > REGISTERS;
@@ -211,10 +212,34 @@ impl Scans {
     }
 }
 
+/// Where a value is kept from `first` to `last` that is needed in a register until `needed`.
+fn place(calls: &[Call], first: u32, needed: u32, last: u32) -> Place {
+    let next = calls.partition_point(|call| call.at < first);
+    let calls = calls[next..].iter().filter(|call| call.is_certain);
+    let mut place = Place::Register;
+    for call in calls.take(Call::LOOKED_AT) {
+        if call.at >= last {
+            break;
+        }
+        let is_live = |until: u32| call.at < until && until <= call.until;
+        // A parameter of the loop begins with it, the result of a call after it.
+        if call.is_loop && is_live(last) || call.at > first && is_live(needed) {
+            return Place::Split;
+        }
+        if call.at > first && is_live(last) {
+            place = Place::Memory;
+        }
+    }
+    place
+}
+
 impl Alive {
-    fn blocks(&self) -> std::ops::Range<usize> {
-        let index = |it: u32| usize::try_from(it).unwrap_or(usize::MAX);
+    fn blocks(&self) -> Range<usize> {
         index(self.begin)..index(self.end)
+    }
+
+    fn needed(&self) -> Range<usize> {
+        index(self.begin)..index(self.needed.max(self.begin))
     }
 }
 
@@ -250,6 +275,7 @@ mod tests {
         at: 50,
         until: u32::MAX,
         is_certain: true,
+        is_loop: false,
     };
 
     #[test]
@@ -287,6 +313,12 @@ mod tests {
             ..held()
         };
         assert_eq!(count(&[handed_on; 20], &[CALL]), 20 * 10 * 50);
+        assert_eq!(count(&[handed_on; 20], &[]), 20 * 10 * 50);
+        let start_of_loop = Call {
+            is_loop: true,
+            ..CALL
+        };
+        assert_eq!(count(&[handed_on; 20], &[start_of_loop]), 10 * 50);
     }
 
     #[test]

@@ -13,6 +13,8 @@ pub(super) struct Value {
     pub(super) weight: u32,
     /// Constants are made where they are used.
     pub(super) is_constant: bool,
+    /// The zero of a local that was not written yet: a constant as well.
+    pub(super) is_initial: bool,
     /// The compiler can compute it, and decide branches on it.
     pub(super) is_decided: bool,
     pub(super) is_float: bool,
@@ -37,6 +39,7 @@ impl Value {
             handed_on: 0,
             weight,
             is_constant,
+            is_initial: false,
             is_decided: is_constant,
             is_float: false,
             root: number,
@@ -62,7 +65,8 @@ impl Value {
     }
 }
 
-/// A call.
+/// A call, or the start of a loop: it checks fuel and epoch, and calls the host in blocks at the end of
+/// the function.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Call {
     pub(super) at: u32,
@@ -70,6 +74,7 @@ pub(super) struct Call {
     pub(super) until: u32,
     /// Whether it depends on nothing that the compiler decides: what is never made, it drops.
     pub(super) is_certain: bool,
+    pub(super) is_loop: bool,
 }
 
 impl Call {

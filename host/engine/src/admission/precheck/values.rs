@@ -117,8 +117,10 @@ impl Values {
         }
         for value in self.all.iter().filter(|value| !value.is_constant) {
             let next = self.calls.partition_point(|call| call.at <= value.first);
-            let mut calls = self.calls[next..].iter().take(Call::LOOKED_AT);
-            let call = calls.find(|call| call.at >= value.last || value.last <= call.until);
+            let calls = self.calls[next..].iter().filter(|call| !call.is_loop);
+            let call = calls
+                .take(Call::LOOKED_AT)
+                .find(|call| call.at >= value.last || value.last <= call.until);
             let end = call.map_or(value.last, |call| value.last.min(call.at));
             let passed = self.made[index(end)] - self.made[index(value.first)];
             pressed.passed_by = pressed.passed_by.max(passed);
