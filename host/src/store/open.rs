@@ -91,18 +91,6 @@ impl Store {
         self.lock.is_some()
     }
 
-    /// Copies what is in the log of SQLite into the file, as closing the store does, which has less
-    /// to do after this. Another store may be writing to the file meanwhile.
-    ///
-    /// # Errors
-    ///
-    /// When the store cannot be written. Nothing is lost then.
-    pub fn copy_log(&self) -> Result<(), StoreError> {
-        let sql = "PRAGMA wal_checkpoint(PASSIVE)";
-        let copied = self.connection.query_row(sql, [], |_| Ok(()));
-        copied.map_err(|error| self.error(error))
-    }
-
     /// Whether SQLite looks up the rows that a row refers to whenever it adds one. It does unless
     /// told otherwise; what is added without is checked by whoever adds it.
     pub(super) fn check_references(&self, checks: bool) -> Result<(), StoreError> {

@@ -253,8 +253,6 @@ fn seal_and_read(
         let sealing = thread::Builder::new().spawn_scoped(scope, seal);
         let sealing = sealing.map_err(|error| play::failure(&RunError::Thread(error)))?;
         let matrix = contest.matrix(&reader, not_admitted);
-        // The store would wait for this when it is closed, alone. It does if this fails.
-        let _ = reader.copy_log();
         let sealed = sealing.join();
         let sealed = sealed.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         sealed.map_err(store_failure)?;

@@ -217,29 +217,6 @@ fn there_is_one_writer_and_any_number_of_readers() {
     Store::open_existing(&path).expect("the lock is free");
 }
 
-/// A reader copies what another connection has written into the file itself.
-#[test]
-fn a_reader_can_copy_the_log() {
-    let folder = TempDir::new().expect("a folder");
-    let path = folder.path().join("results.db");
-    let mut store = Store::create_or_open(&path).expect("a store");
-    let contest = Contest::new(3, 3, SEEDS);
-    contest.store(&mut store, KeptTranscripts::All, |_, _, _| true);
-    let reader = Store::open_read_only(&path).expect("a reader");
-    let copy = || {
-        let copy = folder.path().join("copy.db");
-        fs::copy(&path, &copy).expect("a file");
-        let copy = Store::open_read_only(&copy).expect("a store");
-        copy.missing(&contest.keys()).expect("read").count()
-    };
-    assert_eq!(copy(), 81, "all is in the log");
-    reader.copy_log().expect("copied");
-    assert_eq!(copy(), 0);
-    store.seal().expect("written");
-    drop((store, reader));
-    assert_eq!(copy(), 0);
-}
-
 #[test]
 fn a_lock_of_another_program_is_named() {
     let folder = finished();
