@@ -203,8 +203,9 @@ fn estimate_with(between: &str) -> u64 {
 
     let mut text = String::from(
         "(component (core module (memory 1) (global $sum (mut f64) (f64.const 0))
+           (global $fixed i32 (i32.const 0))
            (func $call (loop (br_if 0 (i32.load (i32.const 0)))))
-           (func (param $address i32) (local $carried i32)",
+           (func (param $address i32) (local $carried i32) (local $zero i32)",
     );
     let floats = 0..10;
     let mut code = String::new();
@@ -246,6 +247,11 @@ fn only_calls_that_are_made_shorten_the_estimate() {
         "(if (i32.const 0) (then (call $call)))",
         "(if (i32.eqz (i32.const 3)) (then (call $call)))",
         "(block (br_if 0 (i32.const 1)) (call $call))",
+        "(if (i32.and (local.get $carried) (i32.const 0)) (then (call $call)))",
+        "(if (i32.xor (local.get $address) (local.get $address)) (then (call $call)))",
+        "(if (local.get $zero) (then (call $call)))",
+        "(if (global.get $fixed) (then (call $call)))",
+        "(if (select (i32.const 0) (i32.const 0) (local.get $carried)) (then (call $call)))",
         "(block (br 0) (call $call))",
         // The floats are not needed there.
         "(if (local.get $carried) (then (call $call) (return)))",

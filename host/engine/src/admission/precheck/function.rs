@@ -194,6 +194,12 @@ impl Function<'_, '_> {
             let code = self.code.get(index(from)..index(to)).unwrap_or_default();
             self.pressure
                 .operator(&operator, code, height, arity, weight.instructions());
+            if let Operator::GlobalGet { global_index } = operator {
+                let global = self.validator.resources().global_at(global_index);
+                if global.is_some_and(|global| !global.mutable) {
+                    self.pressure.is_constant();
+                }
+            }
             let result = self.validator.get_operand_type(0).flatten();
             if arity.1 > 0 && result.is_some_and(is_float) {
                 self.pressure.is_float();

@@ -14,6 +14,7 @@ use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use wasmparser::Operator;
 
 use super::flow::Meeting;
+use super::folding::Folded;
 use super::value::{Call, index};
 use super::values::{Pressed, Values};
 
@@ -60,6 +61,8 @@ pub(super) struct Pressure {
     joins: u32,
     /// Open constructs that are doubtful.
     doubts: usize,
+    /// Loops that are open.
+    loops: usize,
 }
 
 impl Pressure {
@@ -77,6 +80,7 @@ impl Pressure {
         self.joined.resize(index(locals), 0);
         self.joins = 0;
         self.doubts = 0;
+        self.loops = 0;
         if self.numbers.capacity() > NUMBERS_KEPT {
             self.numbers = HashMap::new();
         }
@@ -131,7 +135,7 @@ impl Pressure {
             Operator::If { .. } => {
                 let condition = self.pop();
                 self.apply(condition);
-                let is_decided = self.values.get(condition).is_decided;
+                let is_decided = self.is_decided(condition);
                 self.open(Frame {
                     is_joined: true,
                     is_decided,
@@ -152,7 +156,7 @@ impl Pressure {
             Operator::BrIf { relative_depth } => {
                 self.branch(*relative_depth);
                 self.doubt(*relative_depth);
-                self.compute(bytes, arity, weight);
+                self.compute(operator, bytes, arity, weight);
             }
             Operator::BrTable { targets } => {
                 self.take(arity.0);
@@ -170,9 +174,10 @@ impl Pressure {
             | Operator::F32Const { .. }
             | Operator::F64Const { .. } => {
                 let value = self.number(bytes, &[], 0, true);
+                self.values.get_mut(value).folded = Folded::of(operator);
                 self.operands.push(value);
             }
-            _ => self.compute(bytes, arity, weight),
+            _ => self.compute(operator, bytes, arity, weight),
         }
     }
 
@@ -251,7 +256,13 @@ impl Pressure {
         value
     }
 
-    fn compute(&mut self, bytes: &[u8], (taken, given): (u32, u32), weight: u32) {
+    fn compute(
+        &mut self,
+        operator: &Operator<'_>,
+        bytes: &[u8],
+        (taken, given): (u32, u32),
+        weight: u32,
+    ) {
         let mut on = self.take(taken);
         // What a branch hands on may be anywhere.
         if bytes.first() != Some(&0x0d) {
@@ -259,7 +270,18 @@ impl Pressure {
                 self.values.get_mut(value).computed = self.now;
             }
         }
-        let is_decided = on.iter().all(|&it| self.values.get(it).is_decided);
+        let folded = |at: usize| self.values.get(on[at]).folded;
+        let folded = match on.len() {
+            1 if matches!(bytes.first(), Some(0x45..=0xc4)) => folded(0).one(operator),
+            // The last operand was taken first.
+            2 if matches!(bytes.first(), Some(0x45..=0xc4)) => {
+                folded(1).two(folded(0), on[0] == on[1], operator)
+            }
+            3 if matches!(bytes.first(), Some(0x1b | 0x1c)) => {
+                folded(2).chosen(folded(1), on[2] == on[1])
+            }
+            _ => Folded::of(operator),
+        };
         for value in &mut on {
             *value = self.values.get(*value).root;
         }
@@ -268,12 +290,13 @@ impl Pressure {
             Some(0x28..=0x35 | 0xfd) if given == 1 => {
                 on.push(self.epoch);
                 let value = self.number(bytes, &on, weight, false);
+                self.values.get_mut(value).folded = folded;
                 self.operands.push(value);
                 return;
             }
             Some(0x45..=0xc4) => {
                 let value = self.number(bytes, &on, weight, false);
-                self.values.get_mut(value).is_decided = is_decided;
+                self.values.get_mut(value).folded = folded;
                 self.operands.push(value);
                 return;
             }
@@ -288,6 +311,7 @@ impl Pressure {
         }
         for result in 0..given {
             let value = self.make(if result == 0 { weight } else { 1 }, false);
+            self.values.get_mut(value).folded = folded;
             self.operands.push(value);
         }
     }
@@ -295,6 +319,13 @@ impl Pressure {
     /// That many blocks of machine code begin at the operator that is next.
     pub(super) fn blocks(&mut self, number: u64) {
         self.values.blocks(self.now.saturating_add(1), number);
+    }
+
+    /// The last result is a constant that is not in the code.
+    pub(super) fn is_constant(&mut self) {
+        if let Some(&value) = self.operands.last() {
+            self.values.get_mut(value).folded = Folded::PERHAPS;
+        }
     }
 
     /// The last result is a float or a vector.
@@ -315,6 +346,7 @@ impl Pressure {
 
     fn open(&mut self, frame: Frame) {
         self.doubts += usize::from(frame.is_doubtful);
+        self.loops += usize::from(frame.is_loop);
         self.frames.push(Frame {
             began: self.now,
             changes: self.changes.len(),
@@ -324,11 +356,18 @@ impl Pressure {
         });
     }
 
+    /// Whether the compiler may know which way a branch on a value goes.
+    fn is_decided(&self, value: u32) -> bool {
+        let value = self.values.get(value);
+        // In a loop, its local may be written in an earlier round.
+        value.folded.is_known || value.is_initial && self.loops == 0
+    }
+
     /// A branch to the label that many constructs outwards, on the last operand. If the compiler decides
     /// it, nothing that follows in all of them may be reached.
     fn doubt(&mut self, label: u32) {
-        let condition = self.operands.last().map(|&value| self.values.get(value));
-        if condition.is_some_and(|value| value.is_decided) {
+        let condition = self.operands.last();
+        if condition.is_some_and(|&value| self.is_decided(value)) {
             let inside = self.frames.iter_mut().rev();
             for frame in inside.take(index(label).saturating_add(1)) {
                 self.doubts += usize::from(!frame.is_doubtful);
@@ -376,6 +415,7 @@ impl Pressure {
             return;
         };
         self.doubts -= usize::from(frame.is_doubtful);
+        self.loops -= usize::from(frame.is_loop);
         if !frame.is_joined || self.frames.is_empty() {
             return;
         }

@@ -1,5 +1,7 @@
 //! [`Value`] and [`Call`]: what `pressure` records of a function.
 
+use super::folding::Folded;
+
 /// A value, with where it is made and used: numbers of operators.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Value {
@@ -15,8 +17,8 @@ pub(super) struct Value {
     pub(super) is_constant: bool,
     /// The zero of a local that was not written yet: a constant as well.
     pub(super) is_initial: bool,
-    /// The compiler can compute it, and decide branches on it.
-    pub(super) is_decided: bool,
+    /// What the compiler knows of it, to decide branches on it.
+    pub(super) folded: Folded,
     pub(super) is_float: bool,
     /// The value that it is taken for when operators on equal values are looked up.
     pub(super) root: u32,
@@ -40,7 +42,7 @@ impl Value {
             weight,
             is_constant,
             is_initial: false,
-            is_decided: is_constant,
+            folded: Folded::UNKNOWN,
             is_float: false,
             root: number,
             joins: None,
