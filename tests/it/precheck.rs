@@ -249,6 +249,8 @@ fn only_calls_that_are_made_shorten_the_estimate() {
         "(block (br_if 0 (i32.const 1)) (call $call))",
         "(if (i32.and (local.get $carried) (i32.const 0)) (then (call $call)))",
         "(if (i32.xor (local.get $address) (local.get $address)) (then (call $call)))",
+        "(if (i32.xor (local.get $address) (i32.add (local.get $address) (i32.const 0)))
+           (then (call $call)))",
         "(if (local.get $zero) (then (call $call)))",
         "(if (global.get $fixed) (then (call $call)))",
         "(if (select (i32.const 0) (i32.const 0) (local.get $carried)) (then (call $call)))",

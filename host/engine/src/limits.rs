@@ -167,7 +167,7 @@ pub struct AdmissionLimits {
     /// Estimated time to compile the file, in ms: the sum over its functions. Stops
     /// files with many functions that are each just under a limit. The estimate is
     /// about twice the truth for real robots, and near it for the worst files that are
-    /// known, on one thread; workers compile on two. Default 44,000.
+    /// known, on one thread; workers compile on two. Default 49,000.
     pub work_ms_max: u32,
 }
 
@@ -213,7 +213,7 @@ impl AdmissionLimits {
         function_memory_mib_max: 600,
         function_work_ms_max: 20_000,
         memory_mib_max: 1000,
-        work_ms_max: 44_000,
+        work_ms_max: 49_000,
     };
 
     /// Core instances that an admitted component can have: those in the file, and one for every

@@ -60,6 +60,18 @@ impl Folded {
         }
     }
 
+    /// Whether a result is surely another number than that from which it is computed: shifted or multiplied
+    /// by a constant that does so.
+    pub(super) fn is_other(operator: &Operator<'_>, by: Self) -> bool {
+        use Operator as O;
+        let shifts = matches!(
+            operator,
+            O::I32Shl | O::I32ShrU | O::I32ShrS | O::I64Shl | O::I64ShrU | O::I64ShrS
+        );
+        let multiplies = matches!(operator, O::I32Mul | O::I64Mul);
+        by.is_known && (shifts && by.bits & 31 != 0 || multiplies && by.bits > 1)
+    }
+
     /// The result of a numeric operator on one number.
     pub(super) const fn one(self, operator: &Operator<'_>) -> Self {
         let bits = match operator {
@@ -73,7 +85,7 @@ impl Folded {
         }
     }
 
-    /// The result of a numeric operator on two numbers, which may be the same one.
+    /// The result of a numeric operator on two numbers, which may both be computed from the same one.
     pub(super) fn two(self, other: Self, is_same: bool, operator: &Operator<'_>) -> Self {
         use Operator as O;
         let (a, b) = (self.bits, other.bits);

@@ -270,12 +270,14 @@ impl Pressure {
                 self.values.get_mut(value).computed = self.now;
             }
         }
+        let (from, is_same) = self.sources(&on);
         let folded = |at: usize| self.values.get(on[at]).folded;
+        let is_other = on.len() == 2 && Folded::is_other(operator, folded(0));
         let folded = match on.len() {
             1 if matches!(bytes.first(), Some(0x45..=0xc4)) => folded(0).one(operator),
             // The last operand was taken first.
             2 if matches!(bytes.first(), Some(0x45..=0xc4)) => {
-                folded(1).two(folded(0), on[0] == on[1], operator)
+                folded(1).two(folded(0), is_same, operator)
             }
             3 if matches!(bytes.first(), Some(0x1b | 0x1c)) => {
                 folded(2).chosen(folded(1), on[2] == on[1])
@@ -296,7 +298,9 @@ impl Pressure {
             }
             Some(0x45..=0xc4) => {
                 let value = self.number(bytes, &on, weight, false);
-                self.values.get_mut(value).folded = folded;
+                let number = self.values.get_mut(value);
+                number.folded = folded;
+                number.from = from.filter(|_| !is_other);
                 self.operands.push(value);
                 return;
             }
@@ -333,6 +337,28 @@ impl Pressure {
         if let Some(&value) = self.operands.last() {
             self.values.get_mut(value).is_float = true;
         }
+    }
+
+    /// The one value that operands are computed from, if there is only one, and whether two are computed
+    /// from the same one: what compares or adds those may be a constant, as `(x + 1) - x` is.
+    fn sources(&self, on: &[u32]) -> (Option<u32>, bool) {
+        let mut source = None;
+        let mut others = on.iter().filter_map(|&number| {
+            let value = self.values.get(number);
+            (!value.is_constant).then(|| value.from.unwrap_or(number))
+        });
+        let is_same = match (others.next(), others.next()) {
+            (first, None) => {
+                source = first;
+                false
+            }
+            (Some(first), Some(second)) if first == second => {
+                source = Some(first);
+                true
+            }
+            _ => false,
+        };
+        (source, is_same)
     }
 
     fn call(&mut self, is_loop: bool) {

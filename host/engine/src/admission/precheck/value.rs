@@ -17,6 +17,9 @@ pub(super) struct Value {
     pub(super) is_constant: bool,
     /// The zero of a local that was not written yet: a constant as well.
     pub(super) is_initial: bool,
+    /// The one value that it is computed from, with constants; `None` if it is not computed, or from
+    /// several.
+    pub(super) from: Option<u32>,
     /// What the compiler knows of it, to decide branches on it.
     pub(super) folded: Folded,
     pub(super) is_float: bool,
@@ -42,6 +45,7 @@ impl Value {
             weight,
             is_constant,
             is_initial: false,
+            from: None,
             folded: Folded::UNKNOWN,
             is_float: false,
             root: number,
