@@ -255,6 +255,8 @@ fn only_calls_that_are_made_shorten_the_estimate() {
         "(if (global.get $fixed) (then (call $call)))",
         "(if (select (i32.const 0) (i32.const 0) (local.get $carried)) (then (call $call)))",
         "(block (br 0) (call $call))",
+        "(block (block (br 1)) (call $call))",
+        "(block (block (br_table 0 1 (i32.const 1))) (call $call))",
         // The floats are not needed there.
         "(if (local.get $carried) (then (call $call) (return)))",
     ] {

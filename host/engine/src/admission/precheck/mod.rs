@@ -46,8 +46,8 @@
 //! | variables times blocks | 64,000,000 | 315,600 | 952,840 | 19,394,640 |
 //! | values carried | 80,000 | 15,119 | 8,948 | 48,533 |
 //! | estimated MiB, one function | 600 | 185 | 79 | 305 |
-//! | estimated ms, one function | 20,000 | 1,070 | 425 | 7,842 |
-//! | estimated ms, the file | 49,000 | 26,120 | 5,480 | 46,690 |
+//! | estimated ms, one function | 20,000 | 1,070 | 437 | 7,842 |
+//! | estimated ms, the file | 49,000 | 26,320 | 5,560 | 47,630 |
 //!
 //! # What the estimate is worth
 //!

@@ -32,6 +32,8 @@ struct Frame {
     is_decided: bool,
     /// What follows in it may never be reached.
     is_doubtful: bool,
+    /// A path surely leads to its end, whatever becomes of the others.
+    is_reached: bool,
     began: u32,
     /// Where its changes of locals begin.
     changes: usize,
@@ -140,6 +142,8 @@ impl Pressure {
                     is_joined: true,
                     is_decided,
                     is_doubtful: is_decided,
+                    // By those who do not take it.
+                    is_reached: !is_decided && self.doubts == 0,
                     ..Frame::default()
                 });
             }
@@ -154,14 +158,16 @@ impl Pressure {
                 self.leave();
             }
             Operator::BrIf { relative_depth } => {
-                self.branch(*relative_depth);
                 self.doubt(*relative_depth);
+                self.branch(*relative_depth);
                 self.compute(operator, bytes, arity, weight);
             }
             Operator::BrTable { targets } => {
+                let labels = || targets.targets().flatten().chain([targets.default()]);
+                self.doubt(labels().max().unwrap_or(0));
                 self.take(arity.0);
-                for target in targets.targets().flatten().chain([targets.default()]) {
-                    self.branch(target);
+                for label in labels() {
+                    self.branch(label);
                 }
                 self.leave();
             }
@@ -410,14 +416,16 @@ impl Pressure {
             .checked_sub(index(label).saturating_add(1));
         if let Some(frame) = target.and_then(|target| self.frames.get_mut(target)) {
             frame.is_joined = true;
+            frame.is_reached |= self.doubts == 0 && !frame.is_loop;
         }
     }
 
     fn otherwise(&mut self) {
-        if let Some(frame) = self.frames.last_mut()
-            && frame.is_doubtful
-            && !frame.is_decided
-        {
+        let Some(frame) = self.frames.last_mut() else {
+            return;
+        };
+        frame.is_reached &= !frame.is_doubtful;
+        if frame.is_doubtful && !frame.is_decided {
             frame.is_doubtful = false;
             self.doubts -= 1;
         }
@@ -442,6 +450,13 @@ impl Pressure {
         };
         self.doubts -= usize::from(frame.is_doubtful);
         self.loops -= usize::from(frame.is_loop);
+        if frame.is_doubtful
+            && !frame.is_reached
+            && let Some(outer) = self.frames.last_mut()
+        {
+            self.doubts += usize::from(!outer.is_doubtful);
+            outer.is_doubtful = true;
+        }
         if !frame.is_joined || self.frames.is_empty() {
             return;
         }
