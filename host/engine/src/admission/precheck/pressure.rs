@@ -15,56 +15,26 @@ use wasmparser::Operator;
 
 use super::flow::Meeting;
 use super::folding::Folded;
-use super::value::{Call, index};
+use super::frames::{Frame, Frames};
+use super::locals::Locals;
+use super::value::Call;
 use super::values::{Pressed, Values};
 
 /// Numbered values for which memory is kept from function to function. Emptying a map takes time for
 /// its capacity.
 const NUMBERS_KEPT: usize = 1 << 12;
 
-/// A construct that is open.
-#[derive(Clone, Copy, Debug, Default)]
-struct Frame {
-    is_loop: bool,
-    /// Whether several paths meet at its label.
-    is_joined: bool,
-    /// Of an `if`: the compiler decides its condition.
-    is_decided: bool,
-    /// What follows in it may never be reached.
-    is_doubtful: bool,
-    /// A path surely leads to its end, whatever becomes of the others.
-    is_reached: bool,
-    began: u32,
-    /// Where its changes of locals begin.
-    changes: usize,
-    /// Where those begin that its first branch made, if it is an `if`.
-    changes_before: usize,
-    /// Where its calls begin that may be passed by.
-    calls: usize,
-}
-
 /// The values while a function is read.
 #[derive(Debug, Default)]
 pub(super) struct Pressure {
     now: u32,
     operands: Vec<u32>,
-    locals: Vec<u32>,
+    locals: Locals,
+    frames: Frames,
     values: Values,
     numbers: HashMap<u64, u32>,
     /// The number of what may have changed memory so far.
     epoch: u32,
-    frames: Vec<Frame>,
-    /// Locals with the values that they had before.
-    changes: Vec<(u32, u32)>,
-    /// Changes that the first branches of open constructs made.
-    changes_before: Vec<(u32, u32)>,
-    /// For each local the construct at whose end it was last given a new value.
-    joined: Vec<u32>,
-    joins: u32,
-    /// Open constructs that are doubtful.
-    doubts: usize,
-    /// Loops that are open.
-    loops: usize,
 }
 
 impl Pressure {
@@ -74,20 +44,12 @@ impl Pressure {
         self.operands.clear();
         self.locals.clear();
         self.values.clear();
-        self.frames.clear();
-        self.changes.clear();
+        self.frames.begin();
         self.epoch = 0;
-        self.changes_before.clear();
-        self.joined.clear();
-        self.joined.resize(index(locals), 0);
-        self.joins = 0;
-        self.doubts = 0;
-        self.loops = 0;
         if self.numbers.capacity() > NUMBERS_KEPT {
             self.numbers = HashMap::new();
         }
         self.numbers.clear();
-        self.frames.push(Frame::default());
         for local in 0..locals {
             let value = self.make(0, false);
             let first = self.values.get_mut(value);
@@ -116,12 +78,12 @@ impl Pressure {
             }
             Operator::LocalSet { local_index } => {
                 let value = self.pop();
-                self.write(*local_index, value);
+                self.locals.write(*local_index, value);
             }
             Operator::LocalTee { local_index } => {
                 let value = self.pop();
                 self.operands.push(value);
-                self.write(*local_index, value);
+                self.locals.write(*local_index, value);
             }
             Operator::Drop => {
                 self.pop();
@@ -143,23 +105,25 @@ impl Pressure {
                     is_decided,
                     is_doubtful: is_decided,
                     // By those who do not take it.
-                    is_reached: !is_decided && self.doubts == 0,
+                    is_reached: !is_decided && self.frames.is_certain(),
                     ..Frame::default()
                 });
             }
             Operator::Else => {
-                self.otherwise();
-                self.restore();
+                self.frames.otherwise();
+                if let Some(frame) = self.frames.last() {
+                    self.locals.restore(frame.changes);
+                }
             }
             Operator::End => self.close(),
             Operator::Br { relative_depth } => {
                 self.take(arity.0);
-                self.branch(*relative_depth);
+                self.frames.branch(*relative_depth);
                 self.leave();
             }
             Operator::BrIf { relative_depth } => {
                 self.doubt(*relative_depth);
-                self.branch(*relative_depth);
+                self.frames.branch(*relative_depth);
                 self.compute(operator, bytes, arity, weight);
             }
             Operator::BrTable { targets } => {
@@ -167,7 +131,7 @@ impl Pressure {
                 self.doubt(labels().max().unwrap_or(0));
                 self.take(arity.0);
                 for label in labels() {
-                    self.branch(label);
+                    self.frames.branch(label);
                 }
                 self.leave();
             }
@@ -214,19 +178,10 @@ impl Pressure {
     }
 
     fn local(&mut self, local: u32) -> u32 {
-        let local = usize::try_from(local).ok();
-        match local.and_then(|local| self.locals.get(local)) {
-            Some(value) => *value,
+        match self.locals.get(local) {
+            Some(value) => value,
             // Validation rejects it.
             None => self.make(0, false),
-        }
-    }
-
-    fn write(&mut self, local: u32, value: u32) {
-        let at = usize::try_from(local).ok();
-        if let Some(present) = at.and_then(|at| self.locals.get_mut(at)) {
-            self.changes.push((local, *present));
-            *present = value;
         }
     }
 
@@ -371,18 +326,15 @@ impl Pressure {
         self.values.call(Call {
             at: self.now,
             until: u32::MAX,
-            is_certain: self.doubts == 0,
+            is_certain: self.frames.is_certain(),
             is_loop,
         });
     }
 
     fn open(&mut self, frame: Frame) {
-        self.doubts += usize::from(frame.is_doubtful);
-        self.loops += usize::from(frame.is_loop);
-        self.frames.push(Frame {
+        self.frames.open(Frame {
             began: self.now,
-            changes: self.changes.len(),
-            changes_before: self.changes_before.len(),
+            changes: self.locals.mark(),
             calls: self.values.calls(),
             ..frame
         });
@@ -392,117 +344,56 @@ impl Pressure {
     fn is_decided(&self, value: u32) -> bool {
         let value = self.values.get(value);
         // In a loop, its local may be written in an earlier round.
-        value.folded.is_known || value.is_initial && self.loops == 0
+        value.folded.is_known || value.is_initial && !self.frames.is_in_loop()
     }
 
-    /// A branch to the label that many constructs outwards, on the last operand. If the compiler decides
-    /// it, nothing that follows in all of them may be reached.
+    /// A branch to the label that many constructs outwards, on the last operand.
     fn doubt(&mut self, label: u32) {
         let condition = self.operands.last();
         if condition.is_some_and(|&value| self.is_decided(value)) {
-            let inside = self.frames.iter_mut().rev();
-            for frame in inside.take(index(label).saturating_add(1)) {
-                self.doubts += usize::from(!frame.is_doubtful);
-                frame.is_doubtful = true;
-            }
-        }
-    }
-
-    /// A branch to the label that many constructs outwards.
-    fn branch(&mut self, label: u32) {
-        let target = self
-            .frames
-            .len()
-            .checked_sub(index(label).saturating_add(1));
-        if let Some(frame) = target.and_then(|target| self.frames.get_mut(target)) {
-            frame.is_joined = true;
-            frame.is_reached |= self.doubts == 0 && !frame.is_loop;
-        }
-    }
-
-    fn otherwise(&mut self) {
-        let Some(frame) = self.frames.last_mut() else {
-            return;
-        };
-        frame.is_reached &= !frame.is_doubtful;
-        if frame.is_doubtful && !frame.is_decided {
-            frame.is_doubtful = false;
-            self.doubts -= 1;
-        }
-    }
-
-    /// Gives the locals the values that they had where the innermost construct began.
-    fn restore(&mut self) {
-        let begin = self.frames.last().map_or(0, |frame| frame.changes);
-        while self.changes.len() > begin {
-            if let Some((local, value)) = self.changes.pop() {
-                self.locals[index(local)] = value;
-                self.changes_before.push((local, value));
-            }
+            self.frames.doubt(label);
         }
     }
 
     /// Where paths meet, each local that one of them changed has a new value. A loop hands on the last
     /// ones to its next round.
     fn close(&mut self) {
-        let Some(frame) = self.frames.pop() else {
+        let Some(frame) = self.frames.close() else {
             return;
         };
-        self.doubts -= usize::from(frame.is_doubtful);
-        self.loops -= usize::from(frame.is_loop);
-        if frame.is_doubtful
-            && !frame.is_reached
-            && let Some(outer) = self.frames.last_mut()
-        {
-            self.doubts += usize::from(!outer.is_doubtful);
-            outer.is_doubtful = true;
-        }
-        if !frame.is_joined || self.frames.is_empty() {
+        if !frame.is_joined || self.frames.last().is_none() {
             return;
         }
-        // The oldest change of a local is the last one there.
-        let before = self.changes_before.drain(frame.changes_before..).rev();
-        self.changes.extend(before);
-        self.joins += 1;
-        let mut kept = frame.changes;
-        for at in frame.changes..self.changes.len() {
-            let (local, previous) = self.changes[at];
-            let last = std::mem::replace(&mut self.joined[index(local)], self.joins);
-            if last == self.joins {
-                continue;
-            }
-            self.changes[kept] = (local, previous);
-            kept += 1;
+        let Self {
+            now,
+            locals,
+            values,
+            ..
+        } = self;
+        locals.meet(frame.changes, |present, previous| {
             if frame.is_loop {
-                let present = self.locals[index(local)];
-                self.values.get_mut(present).handed_on = self.now;
+                values.get_mut(present).handed_on = *now;
                 // What the first round has of it is not what the next ones have.
-                let previous = self.values.get_mut(previous);
+                let previous = values.get_mut(previous);
                 previous.loops = previous.loops.min(frame.began);
-            } else {
-                let is_float = self.values.get(previous).is_float;
-                let present = self.locals[index(local)];
-                let root = self.values.get(present).root;
-                let joined = self.make(0, false);
-                let value = self.values.get_mut(joined);
-                value.joins = Some([present, previous]);
-                value.root = root;
-                value.is_float = is_float;
-                self.locals[index(local)] = joined;
+                return present;
             }
-        }
-        self.changes.truncate(kept);
+            let is_float = values.get(previous).is_float;
+            let root = values.get(present).root;
+            let joined = values.make(*now, 0, false);
+            let value = values.get_mut(joined);
+            value.joins = Some([present, previous]);
+            value.root = root;
+            value.is_float = is_float;
+            joined
+        });
     }
 
     /// The code after this is reached by branches only, which pass by the calls of this construct.
     fn leave(&mut self) {
-        let Some(frame) = self.frames.last_mut() else {
-            return;
-        };
-        self.doubts += usize::from(!frame.is_doubtful);
-        frame.is_doubtful = true;
-        // Only once, also if what follows and is never reached leaves again.
-        frame.calls = self.values.leave(frame.calls, self.now);
+        if let Some(from) = self.frames.leave(self.values.calls()) {
+            self.values.leave(from, self.now);
+        }
     }
 }
 

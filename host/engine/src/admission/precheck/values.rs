@@ -69,12 +69,11 @@ impl Values {
         self.calls.len()
     }
 
-    /// All paths pass the calls from one on by, after that operator. Returns the number of calls.
-    pub(super) fn leave(&mut self, from: usize, at: u32) -> usize {
+    /// All paths pass the calls from one on by, after that operator.
+    pub(super) fn leave(&mut self, from: usize, at: u32) {
         for call in &mut self.calls[from..] {
             call.until = call.until.min(at);
         }
-        self.calls.len()
     }
 
     /// That many blocks of machine code begin at an operator.
