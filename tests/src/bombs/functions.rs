@@ -6,9 +6,11 @@ use wasm_encoder::{
     Module, RefType, TableSection, TableType, TypeSection, ValType,
 };
 
+use super::modules::count;
+
 /// What stands in a module beside one function type, one memory, one table and a
 /// global.
-struct Parts {
+pub(super) struct Parts {
     signature: (u32, u32),
     locals: u32,
     bodies: Vec<Vec<I<'static>>>,
@@ -16,7 +18,7 @@ struct Parts {
 
 impl Parts {
     /// One function that takes a number.
-    fn one(locals: u32, body: Vec<I<'static>>) -> Vec<u8> {
+    pub(super) fn one(locals: u32, body: Vec<I<'static>>) -> Vec<u8> {
         let parts = Self {
             signature: (1, 0),
             locals,
@@ -83,7 +85,7 @@ fn variable() -> GlobalType {
     }
 }
 
-fn argument(at: u32) -> MemArg {
+pub(super) fn argument(at: u32) -> MemArg {
     MemArg {
         offset: u64::from(at) * 4,
         align: 0,
@@ -92,7 +94,7 @@ fn argument(at: u32) -> MemArg {
     }
 }
 
-fn load(at: u32) -> [I<'static>; 2] {
+pub(super) fn load(at: u32) -> [I<'static>; 2] {
     [I::LocalGet(0), I::I32Load(argument(at))]
 }
 
@@ -164,7 +166,7 @@ fn block_with_exits(exits: u32, locals: u32) -> Vec<I<'static>> {
 }
 
 /// Uses that many locals.
-fn uses(first: u32, locals: u32) -> impl Iterator<Item = I<'static>> {
+pub(super) fn uses(first: u32, locals: u32) -> impl Iterator<Item = I<'static>> {
     (first..first + locals).flat_map(|local| [I::LocalGet(local), I::GlobalSet(0)])
 }
 
@@ -505,8 +507,4 @@ fn handing_over(types: &str, parameter: &str) -> Vec<u8> {
 
 fn repeated(body: &[I<'static>], times: u32) -> Vec<I<'static>> {
     (0..times).flat_map(|_| body.iter().cloned()).collect()
-}
-
-fn count(number: u32) -> usize {
-    usize::try_from(number).expect("usize has at least 32 bits")
 }

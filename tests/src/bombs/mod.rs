@@ -8,8 +8,10 @@ mod functions;
 mod modules;
 mod repeated;
 mod types;
+mod woven;
 
 pub use functions::*;
 pub use modules::*;
 pub use repeated::with_repeated_functions;
 pub use types::*;
+pub use woven::woven;

@@ -22,7 +22,7 @@ macro_rules! generator {
     };
 }
 
-pub(super) const GENERATORS: [Generator; 37] = [
+pub(super) const GENERATORS: [Generator; 41] = [
     generator!(nested_loops(0 = 20)),
     generator!(nested_blocks(0 = 500)),
     generator!(locals_and_branches(0 = 300, 1 = 1000)),
@@ -30,6 +30,18 @@ pub(super) const GENERATORS: [Generator; 37] = [
     generator!(exits(0 = 300, 1 = 10)),
     generator!(held_values(0 = 300, 1 = 10, 2 = 10, 3 = 0)),
     generator!(looped_values(0 = 10, 1 = 300, 2 = 300)),
+    // Exits with calls, loops and joins, in four patterns to begin with.
+    generator!(woven(0 = 0xb010, 1 = 0x6d8, 2 = 50, 3 = 10, 4 = 5, 5 = 2)),
+    generator!(woven(0 = 0x5_0a14, 1 = 0xbf2, 2 = 50, 3 = 8, 4 = 9, 5 = 3)),
+    generator!(woven(
+        0 = 0x1_7013,
+        1 = 0x50cb,
+        2 = 40,
+        3 = 6,
+        4 = 13,
+        5 = 1
+    )),
+    generator!(woven(0 = 0xd_8d9c, 1 = 0xe60, 2 = 30, 3 = 12, 4 = 1, 5 = 8)),
     generator!(typed_blocks(0 = 300, 1 = 3)),
     generator!(indirect_calls(0 = 2000)),
     generator!(stacked_values(0 = 100, 1 = 100)),
