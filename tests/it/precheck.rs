@@ -98,6 +98,16 @@ fn bombs_are_rejected_for_what_makes_them_one() {
                 .expect("a core module"),
             "ms of estimated time to compile the file",
         ),
+        // 1.5 GB on two threads.
+        (
+            bombs::locals_and_branches(5500, 3800),
+            "MiB of estimated memory to compile a function",
+        ),
+        (
+            bombs::with_repeated_functions(&bombs::locals_and_branches(5000, 2000), 2)
+                .expect("a core module"),
+            "MiB of estimated memory to compile the file",
+        ),
         (bombs::empty_functions(1_000_000), "functions"),
         (bombs::long_function(7_600_000), "bytes in a function"),
         (
@@ -131,7 +141,7 @@ fn bombs_are_rejected_for_what_makes_them_one() {
         ),
         (
             bombs::placed_data(20_000),
-            "MiB of estimated memory to compile a function",
+            "ms of estimated time to compile a function",
         ),
         (
             bombs::escaped_functions(30_000, 200),

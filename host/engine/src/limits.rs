@@ -8,6 +8,11 @@ use wasmouse_core::{Digest, DigestBuilder};
 /// needs room for itself beyond that.
 pub const STACK_BYTES: usize = 8 << 20;
 
+/// Threads that compile one file, on every machine: each takes memory, and a file that is
+/// rejected for taking too much must not be accepted where there are fewer cores. The limits of
+/// admission were measured with two.
+pub const COMPILE_THREADS: usize = 2;
+
 /// Everything that an engine enforces, split by what it can decide.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Limits {

@@ -35,11 +35,6 @@ pub const COMPILE_MEMORY_BYTES: u64 = 2 << 30;
 /// backtrace, what a compiler takes.
 pub const RUN_MEMORY_BYTES: u64 = 4 << 30;
 
-/// Threads that compile one file, on every machine: each takes memory, and a file that is
-/// rejected for taking too much must not be accepted where there are fewer cores. The limits of
-/// admission were measured with two.
-pub const COMPILE_THREADS: usize = 2;
-
 /// Processor time of a compile worker, in seconds, all threads together. The largest known
 /// robots take 30 s on a slow machine.
 pub const COMPILE_CPU_SECONDS: u64 = 120;

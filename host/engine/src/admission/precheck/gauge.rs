@@ -4,7 +4,10 @@ use super::super::place::Place;
 use super::super::rejection::Rejection;
 use super::measure::{Measure, Measures, NS_IN_MS};
 use super::spills::Spills;
-use crate::limits::Limits;
+use crate::limits::{COMPILE_THREADS, Limits};
+
+/// Memory of the compiler before it compiles anything, in bytes.
+const COMPILER_BYTES: u64 = 12 << 20;
 
 /// What is found in a file, and the sums of its estimates.
 pub(super) struct Gauge<'a> {
@@ -16,8 +19,9 @@ pub(super) struct Gauge<'a> {
     spills: Spills,
     /// The estimated memory for what is kept until all is compiled, in bytes.
     kept_bytes: u64,
-    /// The estimated memory for the largest function while it is compiled, in bytes.
-    largest_bytes: u64,
+    /// The estimated memory for the largest functions while they are compiled, all at the same time, in
+    /// bytes, ascending.
+    largest_bytes: [u64; COMPILE_THREADS],
 }
 
 impl<'a> Gauge<'a> {
@@ -27,8 +31,8 @@ impl<'a> Gauge<'a> {
             found: Measures::default(),
             work_ns: 0,
             spills: Spills::default(),
-            kept_bytes: 0,
-            largest_bytes: 0,
+            kept_bytes: COMPILER_BYTES,
+            largest_bytes: [0; COMPILE_THREADS],
         }
     }
 
@@ -84,8 +88,13 @@ impl<'a> Gauge<'a> {
         byte: u64,
     ) -> Result<(), Rejection> {
         self.kept_bytes = self.kept_bytes.saturating_add(kept_bytes);
-        self.largest_bytes = self.largest_bytes.max(passing_bytes);
-        let bytes = self.kept_bytes.saturating_add(self.largest_bytes);
+        let [least, ..] = &mut self.largest_bytes;
+        if passing_bytes > *least {
+            *least = passing_bytes;
+            self.largest_bytes.sort_unstable();
+        }
+        let largest = self.largest_bytes.into_iter();
+        let bytes = largest.fold(self.kept_bytes, u64::saturating_add);
         self.note(Measure::Memory, bytes >> 20, byte)
     }
 

@@ -6,13 +6,13 @@ use wasmouse_core::Digest;
 use wasmtime::Engine;
 
 use super::super::protocol::{self, CompileOrder, Compiled, Examined, Hello};
-use super::super::role::{COMPILE_THREADS, Role, SandboxStatus};
+use super::super::role::{Role, SandboxStatus};
 use super::pipes::{Pipes, read_exactly};
 use super::privileges;
 use super::setup::sandboxed;
 use crate::admission::{examine, world};
 use crate::error::InfrastructureError;
-use crate::limits::Limits;
+use crate::limits::{COMPILE_THREADS, Limits};
 use crate::runtime::{AdmissionError, new_backtrace_compiler, new_compiler, precompile};
 
 /// Stack of the threads that read and compile: nested things recurse.
