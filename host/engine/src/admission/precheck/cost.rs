@@ -111,7 +111,7 @@ impl Sizes {
         } = self.pressed;
         Spills {
             tries: pressed * 10 + made + self.passed * 5,
-            conflicts: min(passed_by, pressed + passed_by / 4) * 3 / 4,
+            conflicts: min(passed_by, pressed + passed_by / 4) * 7 / 10,
         }
     }
 

@@ -13,7 +13,7 @@ use super::depth::Depth;
 use super::flow::{Construct, Flow};
 use super::gauge::Gauge;
 use super::measure::Measure;
-use super::pressure::Pressure;
+use super::pressure::{Loads, Pressure};
 
 /// What an operator becomes, by its first byte.
 enum Weight {
@@ -99,7 +99,7 @@ pub(super) struct Functions {
     depth: Depth,
     targets: Vec<u32>,
     regions: Regions,
-    pressure: Pressure,
+    pressures: [Pressure; 2],
 }
 
 impl Functions {
@@ -132,16 +132,18 @@ impl Functions {
         self.flow.begin(locals, results);
         self.depth.begin();
         self.regions.begin();
-        self.pressure.begin(locals, parameters, |local| {
-            validator.get_local_type(local).is_some_and(is_float)
-        });
+        for (pressure, loads) in self.pressures.iter_mut().zip(Loads::ALL) {
+            pressure.begin(loads, locals, parameters, |local| {
+                validator.get_local_type(local).is_some_and(is_float)
+            });
+        }
         let mut function = Function {
             validator,
             flow: &mut self.flow,
             depth: &mut self.depth,
             targets: &mut self.targets,
             regions: &mut self.regions,
-            pressure: &mut self.pressure,
+            pressures: &mut self.pressures,
             code: body.as_bytes(),
             begin: range.start,
             gauge,
@@ -165,7 +167,7 @@ struct Function<'a, 'l> {
     depth: &'a mut Depth,
     targets: &'a mut Vec<u32>,
     regions: &'a mut Regions,
-    pressure: &'a mut Pressure,
+    pressures: &'a mut [Pressure; 2],
     /// The bytes of its body, which begin where it begins in the file.
     code: &'a [u8],
     begin: u64,
@@ -192,17 +194,23 @@ impl Function<'_, '_> {
             reader.visit_operator(&mut self.validator.visitor(byte))??;
             let [from, to] = [byte, reader.original_position()].map(|it| it - self.begin);
             let code = self.code.get(index(from)..index(to)).unwrap_or_default();
-            self.pressure
-                .operator(&operator, code, height, arity, weight.instructions());
-            if let Operator::GlobalGet { global_index } = operator {
-                let global = self.validator.resources().global_at(global_index);
-                if global.is_some_and(|global| !global.mutable) {
-                    self.pressure.is_constant();
+            let is_constant = match operator {
+                Operator::GlobalGet { global_index } => {
+                    let global = self.validator.resources().global_at(global_index);
+                    global.is_some_and(|global| !global.mutable)
                 }
-            }
+                _ => false,
+            };
             let result = self.validator.get_operand_type(0).flatten();
-            if arity.1 > 0 && result.is_some_and(is_float) {
-                self.pressure.is_float();
+            let is_float = arity.1 > 0 && result.is_some_and(is_float);
+            for pressure in &mut *self.pressures {
+                pressure.operator(&operator, code, height, arity, weight.instructions());
+                if is_constant {
+                    pressure.is_constant();
+                }
+                if is_float {
+                    pressure.is_float();
+                }
             }
             let bytes = reader.original_position() - byte;
             self.sizes.deep_bytes += bytes * self.depth.now();
@@ -308,7 +316,9 @@ impl Function<'_, '_> {
     fn blocks(&mut self, number: u64) {
         self.sizes.blocks += number;
         self.sizes.depths += number * self.depth.now();
-        self.pressure.blocks(number);
+        for pressure in &mut *self.pressures {
+            pressure.blocks(number);
+        }
     }
 
     /// An access to a table, which may call the host. Its values are all new, so it has more of the
@@ -407,7 +417,9 @@ impl Function<'_, '_> {
     /// Estimates what compiling the function takes.
     fn finish(&mut self, byte: u64) -> Result<(), Rejection> {
         self.sizes.joins = self.flow.count();
-        self.sizes.pressed = self.pressure.finish(self.flow.meetings());
+        let [kept, lost] = &mut *self.pressures;
+        let meetings = self.flow.meetings();
+        self.sizes.pressed = kept.finish(meetings).max(lost.finish(meetings));
         let carried = self.sizes.joins.carried;
         self.gauge.note(Measure::Carried, carried, byte)?;
         self.sizes.note(self.gauge, byte)

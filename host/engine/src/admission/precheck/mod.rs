@@ -45,23 +45,31 @@
 //! | blocks of a function | 40,000 | 14,002 | 5,810 | 17,716 |
 //! | variables times blocks | 64,000,000 | 315,600 | 952,840 | 19,394,640 |
 //! | values carried | 80,000 | 15,119 | 8,948 | 48,533 |
-//! | estimated MiB, one function | 600 | 185 | 79 | 305 |
-//! | estimated ms, one function | 20,000 | 1,070 | 437 | 7,842 |
-//! | estimated ms, the file | 49,000 | 26,320 | 5,560 | 47,630 |
+//! | estimated MiB, one function | 600 | 141 | 71 | 280 |
+//! | estimated MiB, the file | 1,000 | 669 | 199 | 939 |
+//! | estimated ms, one function | 20,000 | 1,070 | 466 | 8,486 |
+//! | estimated ms, the file | 49,000 | 26,350 | 5,570 | 48,480 |
 //!
 //! # What the estimate is worth
 //!
 //! Generators of bad files, each pushing one or two terms, were compiled with
 //! wasmtime 48 on one thread, and the terms were raised to what they took. The robots
 //! above take 0.4 to 0.6 of their estimate, and the generators, each by itself, up to 0.85 of it.
+//! Functions that combine constructs at random (`bombs::woven` of the tests) take up to 0.4.
 //! After a function that spills a lot, others that spill take longer (`spills`); that part is less
 //! certain, because how large the table of the compiler becomes is only known up to a factor of 2.
 //! One loop of the allocator, which small files can keep busy for long, is followed closely
 //! (`scans`). It stops at a value that a call passes by. Calls that the compiler finds to be never
 //! made do not count (`folding`), as far as that is known: one that Cranelift drops by a rule that is
-//! not known here would make a file take more than its estimate.
+//! not known here would make a file take more than its estimate. What has no effect but its result is
+//! made where that is needed, however far from where it is in the code, and what it is computed from
+//! stays alive until then (`values`).
+//!
+//! Memory is estimated for the two functions that take the most, which two threads may compile at the
+//! same time, and for what is kept of all others. Real robots take 0.45 to 0.6 of it, and
+//! generators, with as many functions as are admitted, up to 1.0.
 //! `cargo xtask fuzz compile_cost` searches for files that take more. Checking alone,
-//! with a process for it, takes 0.2 s for the Python robot in a release build, and
+//! with a process for it, takes 0.3 s for the Python robot in a release build, and
 //! 0.01 s for one in C. Whatever the estimate misses, the process that compiles has
 //! its own limits on time and memory.
 //!

@@ -17,16 +17,32 @@ use super::flow::Meeting;
 use super::folding::Folded;
 use super::frames::{Frame, Frames};
 use super::locals::Locals;
-use super::value::Call;
+use super::value::{Call, index};
 use super::values::{Pressed, Values};
 
 /// Numbered values for which memory is kept from function to function. Emptying a map takes time for
 /// its capacity.
 const NUMBERS_KEPT: usize = 1 << 12;
 
+/// How long the compiler knows what it has loaded. Where paths meet it may or may not: in code that checks
+/// fuel it often does not, and either can be what takes longer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Loads {
+    /// Until memory changes.
+    #[default]
+    Kept,
+    /// Also until a construct begins or ends, or a branch is not taken.
+    Lost,
+}
+
+impl Loads {
+    pub(super) const ALL: [Self; 2] = [Self::Kept, Self::Lost];
+}
+
 /// The values while a function is read.
 #[derive(Debug, Default)]
 pub(super) struct Pressure {
+    loads: Loads,
     now: u32,
     operands: Vec<u32>,
     locals: Locals,
@@ -39,7 +55,14 @@ pub(super) struct Pressure {
 
 impl Pressure {
     /// Begins a function with that many locals, of which the first are parameters.
-    pub(super) fn begin(&mut self, locals: u32, parameters: u64, is_float: impl Fn(u32) -> bool) {
+    pub(super) fn begin(
+        &mut self,
+        loads: Loads,
+        locals: u32,
+        parameters: u64,
+        is_float: impl Fn(u32) -> bool,
+    ) {
+        self.loads = loads;
         self.now = 0;
         self.operands.clear();
         self.locals.clear();
@@ -71,6 +94,17 @@ impl Pressure {
     ) {
         self.now = self.now.saturating_add(1);
         self.reach(height);
+        let is_end = matches!(
+            operator,
+            Operator::Loop { .. }
+                | Operator::If { .. }
+                | Operator::Else
+                | Operator::End
+                | Operator::BrIf { .. }
+        );
+        if is_end && self.loads == Loads::Lost {
+            self.epoch += 1;
+        }
         match operator {
             Operator::LocalGet { local_index } => {
                 let value = self.local(*local_index);
@@ -98,7 +132,7 @@ impl Pressure {
             }
             Operator::If { .. } => {
                 let condition = self.pop();
-                self.apply(condition);
+                self.need(condition);
                 let is_decided = self.is_decided(condition);
                 self.open(Frame {
                     is_joined: true,
@@ -110,33 +144,44 @@ impl Pressure {
                 });
             }
             Operator::Else => {
+                self.carry(arity.0);
                 self.frames.otherwise();
                 if let Some(frame) = self.frames.last() {
                     self.locals.restore(frame.changes);
                 }
             }
-            Operator::End => self.close(),
+            Operator::End => {
+                self.carry(arity.0);
+                self.close();
+            }
             Operator::Br { relative_depth } => {
-                self.take(arity.0);
+                self.carry(arity.0);
                 self.frames.branch(*relative_depth);
                 self.leave();
             }
             Operator::BrIf { relative_depth } => {
                 self.doubt(*relative_depth);
                 self.frames.branch(*relative_depth);
-                self.compute(operator, bytes, arity, weight);
+                let condition = self.pop();
+                self.need(condition);
+                // What it hands on stays for those who do not take it.
+                self.carry(arity.0.saturating_sub(1));
             }
             Operator::BrTable { targets } => {
                 let labels = || targets.targets().flatten().chain([targets.default()]);
                 self.doubt(labels().max().unwrap_or(0));
-                self.take(arity.0);
+                let index = self.pop();
+                self.need(index);
+                self.carry(arity.0.saturating_sub(1));
                 for label in labels() {
                     self.frames.branch(label);
                 }
                 self.leave();
             }
             Operator::Return | Operator::Unreachable => {
-                self.take(arity.0);
+                for value in self.take(arity.0) {
+                    self.need(value);
+                }
                 self.leave();
             }
             Operator::I32Const { .. }
@@ -190,6 +235,25 @@ impl Pressure {
         self.values.get_mut(value).last = self.now;
     }
 
+    /// What stays where it is in the code needs a value.
+    fn need(&mut self, value: u32) {
+        self.apply(value);
+        let now = self.now;
+        let value = self.values.get_mut(value);
+        value.needed = value.needed.min(now);
+    }
+
+    /// A branch hands on that many operands.
+    fn carry(&mut self, number: u32) {
+        let now = self.now;
+        let first = self.operands.len().saturating_sub(index(number));
+        for &value in &self.operands[first..] {
+            let value = self.values.get_mut(value);
+            value.last = now;
+            value.carried = value.carried.min(now);
+        }
+    }
+
     /// Uses that many operands and returns them, the last first.
     fn take(&mut self, number: u32) -> Vec<u32> {
         let number = usize::try_from(number).unwrap_or(0);
@@ -225,11 +289,16 @@ impl Pressure {
         weight: u32,
     ) {
         let mut on = self.take(taken);
-        // What a branch hands on may be anywhere.
-        if bytes.first() != Some(&0x0d) {
-            for &value in &on {
-                self.values.get_mut(value).computed = self.now;
+        let is_pure = given == 1 && self.is_pure(bytes, &on);
+        for &value in &on {
+            self.values.get_mut(value).computed = self.now;
+            if !is_pure {
+                self.need(value);
             }
+        }
+        let mut sources = [u32::MAX; 3];
+        for (source, &value) in sources.iter_mut().zip(&on) {
+            *source = value;
         }
         let (from, is_same) = self.sources(&on);
         let folded = |at: usize| self.values.get(on[at]).folded;
@@ -248,23 +317,26 @@ impl Pressure {
         for value in &mut on {
             *value = self.values.get(*value).root;
         }
-        match bytes.first() {
-            // Loads, and the SIMD operators, some of which load.
-            Some(0x28..=0x35 | 0xfd) if given == 1 => {
+        // SIMD operators that are not pure may load.
+        let is_load = given == 1 && !is_pure && matches!(bytes.first(), Some(0x28..=0x35 | 0xfd));
+        let is_numeric = matches!(bytes.first(), Some(0x45..=0xc4));
+        if is_pure || is_load || is_numeric {
+            if is_load {
                 on.push(self.epoch);
-                let value = self.number(bytes, &on, weight, false);
-                self.values.get_mut(value).folded = folded;
-                self.operands.push(value);
-                return;
             }
-            Some(0x45..=0xc4) => {
-                let value = self.number(bytes, &on, weight, false);
-                let number = self.values.get_mut(value);
-                number.folded = folded;
+            let value = self.number(bytes, &on, weight, false);
+            let number = self.values.get_mut(value);
+            number.folded = folded;
+            if is_pure {
+                number.pure = number.pure.or(Some(sources));
+            }
+            if is_numeric {
                 number.from = from.filter(|_| !is_other);
-                self.operands.push(value);
-                return;
             }
+            self.operands.push(value);
+            return;
+        }
+        match bytes.first() {
             // Calls.
             Some(0x10..=0x15) => {
                 self.epoch += 1;
@@ -322,6 +394,30 @@ impl Pressure {
         (source, is_same)
     }
 
+    /// Whether the compiler may make a result where it is needed, and not where it is in the code: it has no
+    /// effects and cannot trap.
+    fn is_pure(&self, bytes: &[u8], on: &[u32]) -> bool {
+        // The last operand was taken first.
+        let by_constant = || {
+            on.first()
+                .is_some_and(|&by| self.values.get(by).is_constant)
+        };
+        match bytes {
+            // Divisions, which are other operators if the divisor is known.
+            [0x6d..=0x70 | 0x7f..=0x82, ..] => by_constant(),
+            // Conversions that trap.
+            [0xa8..=0xab | 0xae..=0xb1, ..] => false,
+            // `select`, other numeric operators, and `ref.is_null`.
+            [0x1b | 0x1c | 0x45..=0xc4 | 0xd1, ..] => true,
+            // Conversions that do not trap.
+            [0xfc, 0..=7, ..] => true,
+            // SIMD, without loads and stores.
+            [0xfd, 0..=11 | 84..=93, ..] => false,
+            [0xfd, ..] => true,
+            _ => false,
+        }
+    }
+
     fn call(&mut self, is_loop: bool) {
         self.values.call(Call {
             at: self.now,
@@ -371,6 +467,9 @@ impl Pressure {
             ..
         } = self;
         locals.meet(frame.changes, |present, previous| {
+            if present == previous {
+                return present;
+            }
             if frame.is_loop {
                 values.get_mut(present).handed_on = *now;
                 // What the first round has of it is not what the next ones have.
@@ -420,7 +519,7 @@ mod tests {
 
     fn loaded(times: u8, calls: bool) -> Pressed {
         let mut pressure = Pressure::default();
-        pressure.begin(2, 2, |_| false);
+        pressure.begin(Loads::Kept, 2, 2, |_| false);
         for _ in 0..times {
             for offset in 0..100 {
                 add_loaded(&mut pressure, offset);
@@ -454,10 +553,65 @@ mod tests {
         assert!(again.passed_by <= 300, "{again:?}");
     }
 
+    /// A sum of loads with stores between them, which something needs at the end or nothing does.
+    fn summed(needs: bool) -> Pressed {
+        let mut pressure = Pressure::default();
+        pressure.begin(Loads::Kept, 2, 2, |_| false);
+        for _ in 0..4 {
+            for offset in 0..100 {
+                add_loaded(&mut pressure, offset);
+            }
+            let address = Operator::LocalGet { local_index: 0 };
+            pressure.operator(&address, &[0x20, 0], 0, (0, 1), 0);
+            pressure.operator(&address, &[0x20, 0], 1, (0, 1), 0);
+            // Which store it is does not matter either.
+            pressure.operator(&Operator::Nop, &[0x36, 2, 0], 2, (2, 0), 1);
+        }
+        let sum = Operator::LocalGet { local_index: 1 };
+        pressure.operator(&sum, &[0x20, 1], 0, (0, 1), 0);
+        if needs {
+            let write = Operator::GlobalSet { global_index: 0 };
+            pressure.operator(&write, &[0x24, 0], 1, (1, 0), 1);
+        } else {
+            pressure.operator(&Operator::Drop, &[0x1a], 1, (1, 0), 0);
+        }
+        pressure.finish(&mut [])
+    }
+
+    #[test]
+    fn what_is_summed_stays_alive_until_the_sum_is_needed() {
+        let needed = summed(true);
+        assert!(needed.alive > 180 * needed.operators, "{needed:?}");
+        let dropped = summed(false);
+        assert!(dropped.alive < 5 * dropped.operators, "{dropped:?}");
+    }
+
+    #[test]
+    fn what_was_loaded_before_a_branch_may_be_lost() {
+        let alive = |loads| {
+            let mut pressure = Pressure::default();
+            pressure.begin(loads, 2, 2, |_| false);
+            for _ in 0..4 {
+                for offset in 0..100 {
+                    add_loaded(&mut pressure, offset);
+                }
+                let condition = Operator::LocalGet { local_index: 0 };
+                pressure.operator(&condition, &[0x20, 0], 0, (0, 1), 0);
+                let blockty = wasmparser::BlockType::Empty;
+                pressure.operator(&Operator::If { blockty }, &[0x04, 0x40], 1, (1, 0), 1);
+                pressure.operator(&Operator::End, &[0x0b], 0, (0, 0), 0);
+            }
+            pressure.finish(&mut []).made
+        };
+        // 100 loads once or four times, each with its address, and 400 additions.
+        assert_eq!(alive(Loads::Kept), 100 * 2 + 400);
+        assert_eq!(alive(Loads::Lost), 4 * 100 * 2 + 400);
+    }
+
     #[test]
     fn a_call_that_is_passed_by_ends_nothing() {
         let mut pressure = Pressure::default();
-        pressure.begin(2, 2, |_| false);
+        pressure.begin(Loads::Kept, 2, 2, |_| false);
         for _ in 0..4 {
             for offset in 0..100 {
                 add_loaded(&mut pressure, offset);

@@ -29,11 +29,20 @@ pub(super) struct Value {
     pub(super) joins: Option<[u32; 2]>,
     /// Start of the outermost loop that writes its local: a block parameter from there on.
     pub(super) loops: u32,
+    /// What it is computed from, if that has no other effect: then it is made where it is first needed.
+    pub(super) pure: Option<[u32; 3]>,
+    /// Where something needs it first that stays where it is in the code.
+    pub(super) needed: u32,
+    /// Where a branch hands it on first: it is needed there, unless all paths hand on the same.
+    pub(super) carried: u32,
 }
 
 impl Value {
     /// In no loop.
     pub(super) const NO_LOOP: u32 = u32::MAX;
+
+    /// Needed nowhere.
+    const NOWHERE: u32 = u32::MAX;
 
     /// One that is made at an operator, with that number.
     pub(super) const fn new(at: u32, weight: u32, is_constant: bool, number: u32) -> Self {
@@ -51,7 +60,20 @@ impl Value {
             root: number,
             joins: None,
             loops: Self::NO_LOOP,
+            pure: None,
+            needed: Self::NOWHERE,
+            carried: Self::NOWHERE,
         }
+    }
+
+    /// Where it is made, if it is computed without other effects and needed anywhere.
+    pub(super) fn placed(&self) -> Option<(u32, [u32; 3])> {
+        let at = match (self.needed, self.carried) {
+            (Self::NOWHERE, Self::NOWHERE) => return None,
+            (Self::NOWHERE, carried) => carried,
+            (needed, _) => needed,
+        };
+        Some((at.max(self.first), self.pure?))
     }
 
     pub(super) fn is_used(&self) -> bool {

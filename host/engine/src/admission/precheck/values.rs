@@ -25,6 +25,20 @@ pub(super) struct Pressed {
     pub(super) scans: u64,
 }
 
+impl Pressed {
+    /// The greater of each.
+    pub(super) fn max(self, other: Self) -> Self {
+        Self {
+            operators: self.operators.max(other.operators),
+            alive: self.alive.max(other.alive),
+            pressed: self.pressed.max(other.pressed),
+            made: self.made.max(other.made),
+            passed_by: self.passed_by.max(other.passed_by),
+            scans: self.scans.max(other.scans),
+        }
+    }
+}
+
 /// All values of a function and its calls.
 #[derive(Debug, Default)]
 pub(super) struct Values {
@@ -83,6 +97,7 @@ impl Values {
 
     /// The function has that many operators.
     pub(super) fn finish(&mut self, now: u32, meetings: &mut [Meeting]) -> Pressed {
+        self.place();
         self.hand_on();
         let scans = self.scans.count(&self.all, &self.calls, meetings);
         self.unite();
@@ -125,6 +140,34 @@ impl Values {
             pressed.passed_by = pressed.passed_by.max(passed);
         }
         pressed
+    }
+
+    /// Moves what has no effect but its result to where that is first needed. What it is computed from is
+    /// live until then: the additions of many loaded numbers, the sum of which is needed at the end, are
+    /// all made there.
+    fn place(&mut self) {
+        for at in (0..self.all.len()).rev() {
+            let value = self.all[at];
+            if let Some(joins) = value.joins.filter(|_| value.is_used()) {
+                for joined in joins {
+                    let carried = &mut self.all[index(joined)].carried;
+                    *carried = value.first.min(*carried);
+                }
+            }
+            let Some((place, from)) = value.placed() else {
+                continue;
+            };
+            let placed = &mut self.all[at];
+            placed.first = place;
+            placed.last = placed.last.max(place);
+            for source in from {
+                if let Some(source) = self.all.get_mut(index(source)) {
+                    source.last = source.last.max(place);
+                    source.computed = source.computed.max(place);
+                    source.needed = source.needed.min(place);
+                }
+            }
+        }
     }
 
     /// Arguments are live until the block that takes them, if its parameter is used.
