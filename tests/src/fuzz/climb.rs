@@ -1,16 +1,13 @@
 //! [`Climb`]: the search itself.
 
-use std::fmt;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use wasmouse_engine::Limits;
 
 use super::candidate::Candidate;
 use super::generators::GENERATORS;
-use super::measure::{Cost, Threads, cost, estimate};
-
-/// Below this the time says nothing, in estimated seconds.
-const ESTIMATE_MIN: f64 = 0.05;
+use super::measure::{Cost, Estimate, Threads, cost, estimate};
+use super::worst::Worst;
 
 /// What a file may be estimated to take in the short test, in seconds.
 const SHORT_ESTIMATE_MAX: f64 = 0.5;
@@ -19,13 +16,22 @@ const SHORT_ESTIMATE_MAX: f64 = 0.5;
 /// seconds.
 const LONG_ESTIMATE_MAX: f64 = 2.0;
 
+/// Times that for memory: functions that take much of it take long.
+const MEMORY_ESTIMATE_TIMES: f64 = 4.0;
+
+/// Estimates below these say nothing: seconds.
+const CPU_SECONDS_MIN: f64 = 0.05;
+
+/// MiB.
+const MEMORY_MIB_MIN: f64 = 50.0;
+
 /// Changes of each generator before the worst is copied.
 const CHANGES: u32 = 6;
 
-/// Files of two generators that are kept.
+/// Files of two generators that are kept for each goal.
 const PAIRS: usize = 12;
 
-/// Files that are copied up to the limits in each round: of one generator, and of two.
+/// Files that are copied up to the limits in each round, for each goal: of one generator, and of two.
 const COPIED: usize = 3;
 
 /// A search for files that take long to compile.
@@ -38,57 +44,29 @@ pub struct Climb {
     duration: Option<Duration>,
 }
 
-/// The file that took the longest of a search.
-#[derive(Clone, Debug, Default)]
-pub struct Worst {
-    /// The generator and its parameters.
-    pub file: String,
-    /// Estimated time, in seconds.
-    pub estimate: f64,
-    /// Processor time, in seconds.
-    pub cpu_seconds: f64,
-    /// The most memory that any file took, in MiB.
-    pub memory_mib: u64,
-    /// The file with the most time for its estimate, and how much that is.
-    pub underestimated: (String, f64),
-    /// Files that were compiled.
-    pub files: u32,
+/// What the search is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Goal {
+    Time,
+    Memory,
 }
 
-impl fmt::Display for Worst {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{} files; the worst, {}: {:.2} s of {:.2} s estimated; at most {} MiB; \
-             {:.2} of the estimate: {}",
-            self.files,
-            self.file,
-            self.cpu_seconds,
-            self.estimate,
-            self.memory_mib,
-            self.underestimated.1,
-            self.underestimated.0,
-        )
-    }
-}
+impl Goal {
+    const ALL: [Self; 2] = [Self::Time, Self::Memory];
 
-impl Worst {
-    fn note(&mut self, file: &str, cost: &Cost) {
-        self.files += 1;
-        self.memory_mib = self.memory_mib.max(cost.memory_mib);
-        if cost.cpu_seconds > self.cpu_seconds {
-            file.clone_into(&mut self.file);
-            self.cpu_seconds = cost.cpu_seconds;
-            self.estimate = cost.estimate;
-        }
-        let ratio = cost.cpu_seconds / cost.estimate;
-        if cost.estimate >= ESTIMATE_MIN && ratio > self.underestimated.1 {
-            self.underestimated = (file.to_owned(), ratio);
+    /// How much of its estimate a file takes. Of small ones, nothing can be said.
+    fn ratio(self, cost: Cost, estimate: Estimate) -> f64 {
+        match self {
+            Self::Time => cost.cpu_seconds / estimate.cpu_seconds.max(CPU_SECONDS_MIN),
+            Self::Memory => {
+                let grown_mib = u32::try_from(cost.grown_mib).map_or(f64::INFINITY, f64::from);
+                grown_mib / estimate.memory_mib.max(MEMORY_MIB_MIN)
+            }
         }
     }
 }
 
-/// What took the longest for its estimate.
+/// What took the most of one thing for its estimate.
 struct Best {
     candidate: Candidate,
     ratio: f64,
@@ -105,6 +83,25 @@ impl Best {
     /// The worst first.
     fn sort(all: &mut [Self]) {
         all.sort_by(|a, b| b.ratio.total_cmp(&a.ratio));
+    }
+}
+
+/// The search for one goal.
+struct Search {
+    goal: Goal,
+    /// One file of each generator.
+    best: Vec<Best>,
+    pairs: Vec<Best>,
+}
+
+impl Search {
+    fn new(goal: Goal) -> Self {
+        let candidates = GENERATORS.into_iter().map(Candidate::of);
+        Self {
+            goal,
+            best: candidates.map(Best::new).collect(),
+            pairs: Vec::new(),
+        }
     }
 }
 
@@ -139,33 +136,39 @@ impl Climb {
     pub fn run(&mut self) -> Worst {
         let begin = Instant::now();
         let mut worst = Worst::default();
-        let mut best: Vec<Best> = GENERATORS
-            .into_iter()
-            .map(|generator| Best::new(Candidate::of(generator)))
-            .collect();
-        let mut pairs: Vec<Best> = Vec::new();
+        let mut searches = Goal::ALL.map(Search::new);
         loop {
-            for best in &mut best {
-                self.change(best, &mut worst);
-                self.report(&worst);
+            for search in &mut searches {
+                self.round(search, &mut worst);
             }
-            Best::sort(&mut best);
-            self.pair(&best, &mut pairs);
-            for pair in &mut pairs {
-                self.change(pair, &mut worst);
-                self.report(&worst);
-            }
-            Best::sort(&mut pairs);
-            let Some(duration) = self.duration else {
-                return worst;
-            };
-            for best in best.iter().take(COPIED).chain(pairs.iter().take(COPIED)) {
-                self.fill(&best.candidate, &mut worst);
-                self.report(&worst);
-            }
-            if begin.elapsed() >= duration {
+            if self
+                .duration
+                .is_none_or(|duration| begin.elapsed() >= duration)
+            {
                 return worst;
             }
+        }
+    }
+
+    fn round(&mut self, search: &mut Search, worst: &mut Worst) {
+        let Search { goal, best, pairs } = search;
+        for best in &mut *best {
+            self.change(*goal, best, worst);
+            self.report(worst);
+        }
+        Best::sort(best);
+        self.pair(best, pairs);
+        for pair in &mut *pairs {
+            self.change(*goal, pair, worst);
+            self.report(worst);
+        }
+        Best::sort(pairs);
+        if self.duration.is_none() {
+            return;
+        }
+        for best in best.iter().take(COPIED).chain(pairs.iter().take(COPIED)) {
+            self.fill(&best.candidate, worst);
+            self.report(worst);
         }
     }
 
@@ -194,7 +197,11 @@ impl Climb {
     }
 
     /// Changes the parameters of a file a few times, and keeps what is worse.
-    fn change(&mut self, best: &mut Best, worst: &mut Worst) {
+    fn change(&mut self, goal: Goal, best: &mut Best, worst: &mut Worst) {
+        let estimate_max = match goal {
+            Goal::Time => self.estimate_max,
+            Goal::Memory => self.estimate_max * MEMORY_ESTIMATE_TIMES,
+        };
         for change in 0..self.changes {
             let mut candidate = best.candidate.clone();
             if change > 0 || best.ratio > 0.0 {
@@ -205,14 +212,14 @@ impl Climb {
             let Some((file, estimate)) = self.admitted(&candidate) else {
                 continue;
             };
-            if estimate > self.estimate_max {
+            if estimate.cpu_seconds > estimate_max {
                 continue;
             }
             let Some(cost) = cost(&file, estimate, &self.limits, Threads::One) else {
                 continue;
             };
-            worst.note(&candidate.to_string(), &cost);
-            let ratio = cost.cpu_seconds / estimate.max(ESTIMATE_MIN);
+            worst.note(&candidate.to_string(), cost, estimate);
+            let ratio = goal.ratio(cost, estimate);
             if ratio > best.ratio {
                 *best = Best { candidate, ratio };
             }
@@ -222,7 +229,7 @@ impl Climb {
     /// Compiles as much as is admitted of a file, on as many threads as the program does: the functions
     /// of its last module again and again, or else copies of that module.
     fn fill(&self, candidate: &Candidate, worst: &mut Worst) {
-        let estimate = |candidate: &Candidate| Some(self.admitted(candidate)?.1);
+        let estimate = |candidate: &Candidate| Some(self.admitted(candidate)?.1.cpu_seconds);
         let once = estimate(&candidate.repeated(1));
         let twice = estimate(&candidate.repeated(2)).or_else(|| estimate(&candidate.copied(2)));
         let (Some(once), Some(twice)) = (once, twice) else {
@@ -241,7 +248,7 @@ impl Climb {
                     continue;
                 };
                 if let Some(cost) = cost(&file, estimate, &self.limits, Threads::All) {
-                    worst.note(&candidate.to_string(), &cost);
+                    worst.note(&candidate.to_string(), cost, estimate);
                 }
                 return;
             }
@@ -249,8 +256,8 @@ impl Climb {
         }
     }
 
-    /// A file and its estimate in seconds, if it can be made and is admitted.
-    fn admitted(&self, candidate: &Candidate) -> Option<(Vec<u8>, f64)> {
+    /// A file and its estimate, if it can be made and is admitted.
+    fn admitted(&self, candidate: &Candidate) -> Option<(Vec<u8>, Estimate)> {
         let file = candidate.file()?;
         let estimate = estimate(&file, &self.limits)?;
         Some((file, estimate))

@@ -10,15 +10,24 @@ use wasmouse_engine::{Limits, engine_config};
 use wasmtime::Engine;
 use wasmtime::component::Component;
 
+/// What admission estimates.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Estimate {
+    /// Processor time, in seconds.
+    pub(super) cpu_seconds: f64,
+    /// Memory, in MiB.
+    pub(super) memory_mib: f64,
+}
+
 /// What was measured.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cost {
-    /// What admission estimates, in seconds.
-    pub(super) estimate: f64,
     /// Processor time, in seconds.
     pub(super) cpu_seconds: f64,
-    /// The most memory of the process meanwhile, in MiB.
+    /// The most memory of the process meanwhile, in MiB, with what is left of other files.
     pub(super) memory_mib: u64,
+    /// How much of it is more than there was before, in MiB.
+    pub(super) grown_mib: u64,
 }
 
 /// How a file is compiled.
@@ -31,11 +40,14 @@ pub(super) enum Threads {
     All,
 }
 
-/// Estimated seconds of a file; `None` when it is not admitted.
-pub(super) fn estimate(file: &[u8], limits: &Limits) -> Option<f64> {
+/// The estimate of a file; `None` when it is not admitted.
+pub(super) fn estimate(file: &[u8], limits: &Limits) -> Option<Estimate> {
     let shape = precheck(file, limits).ok()?;
-    let ms = u32::try_from(shape.measures.get(Measure::Work)).ok()?;
-    Some(f64::from(ms) / 1000.0)
+    let measure = |measure| Some(f64::from(u32::try_from(shape.measures.get(measure)).ok()?));
+    Some(Estimate {
+        cpu_seconds: measure(Measure::Work)? / 1000.0,
+        memory_mib: measure(Measure::Memory)?,
+    })
 }
 
 /// Compiles and loads an admitted file; `None` when the compiler rejects it. What takes longer
@@ -45,32 +57,41 @@ pub(super) fn estimate(file: &[u8], limits: &Limits) -> Option<f64> {
 /// # Panics
 ///
 /// When the engine refuses to load what it has compiled, which admission has to know before.
-pub(super) fn cost(file: &[u8], estimate: f64, limits: &Limits, threads: Threads) -> Option<Cost> {
-    let cost = cost_once(file, estimate, limits, threads)?;
-    if cost.cpu_seconds <= estimate {
+pub(super) fn cost(
+    file: &[u8],
+    estimate: Estimate,
+    limits: &Limits,
+    threads: Threads,
+) -> Option<Cost> {
+    let cost = cost_once(file, limits, threads)?;
+    if cost.cpu_seconds <= estimate.cpu_seconds {
         return Some(cost);
     }
-    let again = cost_once(file, estimate, limits, threads)?;
+    let again = cost_once(file, limits, threads)?;
     Some(Cost {
         cpu_seconds: again.cpu_seconds.min(cost.cpu_seconds),
-        ..again
+        ..cost
     })
 }
 
-fn cost_once(component: &[u8], estimate: f64, limits: &Limits, threads: Threads) -> Option<Cost> {
+fn cost_once(component: &[u8], limits: &Limits, threads: Threads) -> Option<Cost> {
     // One for each file, as in the host: the compiler of an engine keeps tables that make a function
     // take longer after a large one, also one of another file.
     let engine = engine(limits, threads);
+    let before_mib = memory_mib("VmRSS:");
     reset_peak();
     let begin = cpu_seconds(threads);
     let compiled = Component::from_binary(&engine, component);
     let cpu_seconds = cpu_seconds(threads) - begin;
     match compiled {
-        Ok(_) => Some(Cost {
-            estimate,
-            cpu_seconds,
-            memory_mib: peak_mib(),
-        }),
+        Ok(_) => {
+            let memory_mib = memory_mib("VmHWM:");
+            Some(Cost {
+                cpu_seconds,
+                memory_mib,
+                grown_mib: memory_mib.saturating_sub(before_mib),
+            })
+        }
         Err(error) => {
             let error = format!("{error:#}");
             assert!(!error.contains("pool"), "admitted and not loaded: {error}");
@@ -116,10 +137,11 @@ fn reset_peak() {
     let _ = fs::write("/proc/self/clear_refs", "5");
 }
 
-/// The most memory of this process, in MiB; 0 where the system does not say.
-fn peak_mib() -> u64 {
+/// What the system says of the memory of this process, in MiB: `VmRSS:` is what it has, and `VmHWM:` the
+/// most that it had; 0 where the system does not say.
+fn memory_mib(name: &str) -> u64 {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let line = status.lines().find_map(|line| line.strip_prefix(name));
     let kib = line.and_then(|line| line.split_whitespace().next()?.parse::<u64>().ok());
     kib.unwrap_or(0) >> 10
 }

@@ -1,18 +1,20 @@
-//! The fuzz target `compile_cost`: searches for admitted files that take long to compile.
+//! The fuzz target `compile_cost`: searches for admitted files that take long to compile, or much memory.
 //!
 //! Bytes at random hardly ever make a file that is expensive; the generators of
 //! [`bombs`](crate::bombs) do nothing else. The target climbs hills: it changes the parameters of
-//! a generator at random and keeps what takes longest for its estimate. It does the same with files
-//! of two modules, because what a compiler keeps of one function may make others take longer. Then it
-//! fills files with copies of the worst, up to the limits. It runs as a short test, and for as long as one wants
-//! with `cargo xtask fuzz compile_cost`.
+//! a generator at random and keeps what takes longest for its estimate, or the most memory for it. It
+//! does the same with files of two modules, because what a compiler keeps of one function may make
+//! others take longer. Then it fills files with copies of the worst, up to the limits. It runs as a
+//! short test, and for as long as one wants with `cargo xtask fuzz compile_cost`.
 
 mod candidate;
 mod climb;
 mod generators;
 mod measure;
+mod worst;
 
-pub use climb::{Climb, Worst};
+pub use climb::Climb;
+pub use worst::Worst;
 
 #[cfg(test)]
 mod tests {
