@@ -46,7 +46,7 @@
 //! | variables times blocks | 64,000,000 | 315,600 | 952,840 | 19,394,640 |
 //! | values carried | 80,000 | 15,119 | 8,948 | 48,533 |
 //! | estimated MiB, one function | 600 | 115 | 68 | 277 |
-//! | estimated MiB, the file | 1,000 | 625 | 195 | 932 |
+//! | estimated MiB, the file | 1,000 | 638 | 196 | 941 |
 //! | estimated ms, one function | 20,000 | 1,070 | 466 | 8,486 |
 //! | estimated ms, the file | 49,000 | 26,350 | 5,570 | 48,480 |
 //!

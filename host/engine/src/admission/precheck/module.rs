@@ -262,7 +262,7 @@ const ITEM_NS: u64 = 2_000;
 const ITEM_BYTES: u64 = 1_000;
 
 /// How often an image is in memory at the same time, about.
-const IMAGE_COPIES: u64 = 3;
+const IMAGE_COPIES: u64 = 4;
 
 /// Time to make and write a byte of an image.
 const IMAGE_BYTE_NS: u64 = 4;
