@@ -2,7 +2,7 @@
 
 use wasm_encoder::{BlockType, Instruction as I};
 
-use super::functions::{Parts, argument, load, uses};
+use super::functions::{Parts, argument, holds, load, releases, uses};
 use super::modules::count;
 
 /// Constructs that are open at a time, beside the outermost block.
@@ -12,12 +12,7 @@ const OPEN_MAX: u32 = 8;
 /// pieces before them made. The digits of `warp` and `weft` in base 16 are the pieces, in `turns`
 /// repetitions, while floats and integers stay alive that are used after all of them.
 pub fn woven(warp: u32, weft: u32, turns: u32, locals: u32, floats: u32, integers: u32) -> Vec<u8> {
-    let mut body = vec![I::LocalGet(0), I::F64Const(1.0.into())];
-    for at in 0..floats {
-        body.extend([I::LocalGet(0), I::F64Load(argument(2 * at))]);
-    }
-    body.push(I::I32Const(1));
-    body.extend((0..integers).flat_map(|at| load(1_000_000 + at)));
+    let mut body = holds(floats, integers);
     body.push(I::Block(BlockType::Empty));
     let pieces: Vec<u32> = digits(warp).chain(digits(weft)).collect();
     let mut weaver = Weaver {
@@ -33,10 +28,7 @@ pub fn woven(warp: u32, weft: u32, turns: u32, locals: u32, floats: u32, integer
     }
     let Weaver { mut body, open, .. } = weaver;
     body.extend(vec![I::End; count(open + 1)]);
-    body.extend(vec![I::I32Xor; count(integers)]);
-    body.push(I::GlobalSet(0));
-    body.extend(vec![I::F64Add; count(floats)]);
-    body.push(I::F64Store(argument(0)));
+    body.extend(releases(floats, integers));
     body.extend(uses(1, locals));
     Parts::one(locals, body)
 }
