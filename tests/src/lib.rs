@@ -15,3 +15,7 @@ pub mod slow;
 pub mod stored;
 pub mod wasi;
 pub mod wasm_target;
+
+/// Held by tests that take much memory: what one of them measures is that of the whole process.
+#[cfg(test)]
+static MUCH_MEMORY: std::sync::Mutex<()> = std::sync::Mutex::new(());

@@ -54,6 +54,7 @@ mod tests {
 
     #[test]
     fn every_case_has_files() {
+        let _alone = crate::MUCH_MEMORY.lock();
         let failed: Vec<String> = cases()
             .into_iter()
             .filter(|case| {
