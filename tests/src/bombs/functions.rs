@@ -374,9 +374,10 @@ pub fn wide_calls(values: u32, calls: u32) -> Vec<u8> {
 
 /// One block of SIMD operators that become dozens of instructions each.
 pub fn simd(operators: u32) -> Vec<u8> {
-    let mut body = vec![I::V128Const(1)];
+    let mut body = vec![I::LocalGet(0), I::V128Const(1)];
     body.extend(vec![I::I32x4TruncSatF32x4U; count(operators)]);
-    body.push(I::Drop);
+    // Of what is dropped nothing is compiled.
+    body.push(I::V128Store(argument(0)));
     Parts::one(0, body)
 }
 
