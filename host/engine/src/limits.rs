@@ -166,8 +166,9 @@ pub struct AdmissionLimits {
     pub function_memory_mib_max: u32,
     /// Estimated time to compile one function, in ms. Default 20,000.
     pub function_work_ms_max: u32,
-    /// Estimated memory to compile the file, in MiB. Stops files with a lot of everything
-    /// that is each just under a limit. Default 1,000.
+    /// Estimated memory to compile the file, in MiB: what is kept until its end, and what
+    /// the two largest functions take, which compile at the same time. Stops files with a
+    /// lot of everything that is each just under a limit. Default 1,000.
     pub memory_mib_max: u32,
     /// Estimated time to compile the file, in ms: the sum over its functions. Stops
     /// files with many functions that are each just under a limit. The estimate is

@@ -55,7 +55,7 @@
 //! Generators of bad files, each pushing one or two terms, were compiled with
 //! wasmtime 48 on one thread, and the terms were raised to what they took. The robots
 //! above take 0.4 to 0.6 of their estimate, and the generators, each by itself, up to 0.85 of it.
-//! Functions that combine constructs at random (`bombs::woven` of the tests) take up to 0.4.
+//! Functions that combine constructs at random (`bombs::woven` of the tests) take up to 0.7.
 //! After a function that spills a lot, others that spill take longer (`spills`); that part is less
 //! certain, because how large the table of the compiler becomes is only known up to a factor of 2.
 //! One loop of the allocator, which small files can keep busy for long, is followed closely
